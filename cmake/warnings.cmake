@@ -1,0 +1,15 @@
+# One interface target that every room links: warnings are errors, and no contraction of a*b+c, so that the same source
+# gives the same bits on every machine (docs/design/determinism.md).
+add_library(ins_options INTERFACE)
+target_compile_options(ins_options INTERFACE
+  -Wall -Wextra -Werror -Wconversion -Wdouble-promotion -Wshadow -Wpedantic
+  $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes -Wmissing-prototypes>
+  -ffp-contract=off)
+if(INS_SANITIZE)
+  target_compile_options(ins_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(ins_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(INS_COVERAGE)
+  target_compile_options(ins_options INTERFACE --coverage)
+  target_link_options(ins_options INTERFACE --coverage)
+endif()

@@ -1,0 +1,77 @@
+/// \file   emu_8051/mcs51.h
+/// \brief  MCS-51 CPU with the peripherals of an AT89S51 (Atmel 2487D): ports, timers 0 and 1, UART, interrupts, watchdog, dual DPTR.
+///
+/// Time is the machine cycle (12 oscillator periods), counted from reset release at create. All pins are levels the outside sets and
+/// latches the outside is told about; the UART drives P3.1 and samples P3.0 bit by bit.
+/// SPDX-License-Identifier: MIT
+#ifndef EMU_8051_MCS51_H_INCLUDED
+#define EMU_8051_MCS51_H_INCLUDED
+#include "emu/report.h"
+#include "emu/time.h"
+#include <stdbool.h>
+#include <stddef.h>
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct mcs51_t mcs51_t;
+
+/// What the port drives changed. `out`: latch AND alternate output (TXD on P3.1): 1 = weak high (P0: Z), 0 = strong low.
+/// `changed`: bits of `out` that differ from before. Called within the instruction that wrote, cycle = its write; for TXD, the UART's cycle.
+typedef void (*mcs51_port_fn)(void* ctx, unsigned port, uint8_t out, uint8_t changed, uint64_t cycle);
+/// Before a pin is read, the outside may bring itself up to date (advance its events to `cycle`); may be NULL.
+typedef void (*mcs51_sync_fn)(void* ctx, uint64_t cycle);
+
+typedef struct mcs51_config_t
+{
+    emu_clock_t clock; ///< hz = crystal, divider = 12; only to stamp reports
+    mcs51_port_fn port;
+    mcs51_sync_fn sync;
+    void* ctx; ///< for port and sync
+    emu_report_t report;
+} mcs51_config_t;
+
+typedef enum mcs51_stop_t
+{
+    MCS51_RAN = 0,   ///< reached until_cycle
+    MCS51_HALTED,    ///< a jump to itself with interrupts off (EA = 0): nothing can ever happen; time still passes if run again
+    MCS51_POWER_DOWN ///< PCON.1: the oscillator is stopped until reset
+} mcs51_stop_t;
+
+/// \return NULL when memory is out.
+EMU_API mcs51_t* mcs51_create(const mcs51_config_t* config);
+EMU_API void mcs51_destroy(mcs51_t* self);
+/// Reset pin: SFRs to their reset values, RAM kept. power_on also clears RAM (a choice; silicon is random) and sets POF.
+EMU_API void mcs51_reset(mcs51_t* self, bool power_on);
+/// Code memory, 4096 octets on the AT89S51. \return 0, or -1 if it does not fit (nothing written).
+EMU_API int mcs51_load(mcs51_t* self, uint16_t address, const uint8_t* octets, size_t count);
+
+/// Execute instructions until the cycle counter is at or past until_cycle (the last instruction may pass it by up to 3 cycles).
+/// Peripheral events (overflow, UART bit) later than until_cycle are left for the next call, so that outside events at that
+/// instant come first.
+EMU_API mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle);
+/// From inside a callback: return from mcs51_run at the next instruction boundary at or after `cycle`, if that is earlier.
+EMU_API void mcs51_shorten(mcs51_t* self, uint64_t cycle);
+/// Now; exact also inside callbacks.
+EMU_API uint64_t mcs51_cycle(const mcs51_t* self);
+EMU_API uint64_t mcs51_instructions(const mcs51_t* self);
+EMU_API uint64_t mcs51_interrupts(const mcs51_t* self);
+
+/// Levels the outside puts on a port's pins (1 where nothing pulls low). Pin read = latch AND outside. Edges reach INT0/1, T0/1, RXD.
+EMU_API void mcs51_set_pins(mcs51_t* self, unsigned port, uint8_t outside, uint64_t cycle);
+/// What the port drives now (latch AND alternate output).
+EMU_API uint8_t mcs51_port_out(const mcs51_t* self, unsigned port);
+
+/// Debug access without side effects.
+EMU_API uint16_t mcs51_pc(const mcs51_t* self);
+EMU_API void mcs51_set_pc(mcs51_t* self, uint16_t pc);
+EMU_API uint8_t mcs51_iram(const mcs51_t* self, uint8_t address); ///< 00..7F (FF on parts with 256 octets)
+EMU_API void mcs51_set_iram(mcs51_t* self, uint8_t address, uint8_t value);
+EMU_API uint8_t mcs51_sfr(mcs51_t* self, uint8_t address); ///< 80..FF as the CPU would see it now; ports: the latch
+EMU_API void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value);
+EMU_API uint8_t mcs51_code(const mcs51_t* self, uint16_t address);
+
+#ifdef __cplusplus
+}
+#endif
+#endif // EMU_8051_MCS51_H_INCLUDED

@@ -1,0 +1,42 @@
+/// \file   emu/sched.h
+/// \brief  The event queue of one run. Events are structs owned by the part that sets them; equal times fire in the order they were set.
+/// SPDX-License-Identifier: MIT
+#ifndef EMU_SCHED_H_INCLUDED
+#define EMU_SCHED_H_INCLUDED
+#include "emu/time.h"
+#include <stdbool.h>
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct emu_event_t
+{
+    void (*fire)(void* ctx, emu_time_t at);
+    void* ctx;
+    emu_time_t at;
+    bool pending;
+    struct emu_event_t* next; ///< private
+} emu_event_t;
+
+typedef struct emu_sched_t
+{
+    emu_time_t now;    ///< instant of the event being fired, or of the executor that runs; never goes back
+    emu_event_t* head; ///< private, sorted
+    /// Called when the earliest pending event became earlier: an executor that is in the middle of a slice shortens it.
+    void (*earlier)(void* ctx, emu_time_t at);
+    void* earlier_ctx;
+} emu_sched_t;
+
+EMU_API void emu_sched_init(emu_sched_t* self);
+/// Set or move an event. `at` before self->now means now.
+EMU_API void emu_sched_at(emu_sched_t* self, emu_event_t* event, emu_time_t at);
+EMU_API void emu_sched_cancel(emu_sched_t* self, emu_event_t* event);
+/// Instant of the earliest event, or EMU_TIME_MAX.
+EMU_API emu_time_t emu_sched_next(const emu_sched_t* self);
+/// Fire everything due at or before t, in order; self->now is each event's instant while it fires, and t afterwards.
+EMU_API void emu_sched_advance(emu_sched_t* self, emu_time_t t);
+
+#ifdef __cplusplus
+}
+#endif
+#endif // EMU_SCHED_H_INCLUDED
