@@ -1,0 +1,32 @@
+"""Firmware images: Intel HEX by the intelhex library, refused in one sentence when they are not whole."""
+
+from pathlib import Path
+
+from intelhex import HexReaderError, IntelHex
+
+from libins.errors import UsageError
+
+
+def load(path: Path, flash_size: int) -> list[tuple[int, bytes]]:
+    """Segments (address, octets) of an Intel HEX file.
+
+    Raises UsageError for a missing, truncated or corrupt file, and for an image larger than the flash.
+    """
+    image = IntelHex()
+    try:
+        text = path.read_text(encoding="ascii")
+        image.loadhex(str(path))
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be read: {error.strerror}; build the firmware or give its path") from error
+    except (HexReaderError, UnicodeDecodeError) as error:
+        raise UsageError(f"{path}: not a whole Intel HEX file: {error}; build it again") from error
+    if ":00000001FF" not in text.upper():
+        raise UsageError(f"{path}: truncated: the end-of-file record (:00000001FF) is missing; build it again")
+    if not len(image):
+        raise UsageError(f"{path}: holds no data; build it again")
+    if image.maxaddr() >= flash_size:
+        raise UsageError(
+            f"{path}: an octet at address {image.maxaddr():#06x} lies beyond the flash ({flash_size} octets); "
+            "the AT89S51 has 4 KB, make the firmware smaller"
+        )
+    return [(start, bytes(image.tobinarray(start=start, end=end - 1))) for start, end in image.segments()]

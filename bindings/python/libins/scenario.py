@@ -1,0 +1,198 @@
+"""Scenario files: what board, which firmware, what motion is fed in, what the line does, who navigates and what must come out.
+
+TOML without loops or expressions; logic belongs in pytest. Names carry their unit (rad, s, Hz, V). docs/scenarios.md lists every key.
+"""
+
+import csv
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from libins import hexfile
+from libins.errors import UsageError
+from libins.schema import Document, field
+
+PACKAGE = Path(__file__).resolve().parent
+FLASH_SIZE = 4096  # AT89S51
+BOARDS = ("8051_tlc2543",)
+FORMS = ("one", "hist1", "hist2_poly", "hist2_opt", "hist3_poly", "hist3_opt")
+
+
+@dataclass(frozen=True)
+class Sinusoid:
+    """angle(t) = offset + amplitude * sin(2 pi frequency t + phase)."""
+
+    offset_rad: float = field(0.0)
+    amplitude_rad: float = field(0.0)
+    frequency_hz: float = field(0.0, minimum=0.0, maximum=1000.0)
+    phase_rad: float = field(0.0)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The true motion. `kind` says which of the other keys count."""
+
+    kind: str = field(choices=("still", "constant_rate", "sinusoids", "coning", "csv"))
+    ramp_s: float = field(0.0, minimum=0.0)
+    yaw: Sinusoid = field(Sinusoid)
+    pitch: Sinusoid = field(Sinusoid)
+    roll: Sinusoid = field(Sinusoid)
+    rate_rad_s: list[float] = field([0.0, 0.0, 0.0])
+    half_angle_rad: float = field(0.0, minimum=0.0, maximum=math.pi / 2)
+    frequency_hz: float = field(0.0, minimum=0.0, maximum=1000.0)
+    csv: str = field("")
+
+
+@dataclass(frozen=True)
+class Gyro:
+    """The three rate gyros and their amplifiers; keys left out keep the preset's values."""
+
+    preset: str = field("ideal", choices=("ideal", "cg_l53"))
+    bandwidth_hz: float | None = field(None, minimum=0.0)
+    noise_rad_s_rthz: float | None = field(None, minimum=0.0)
+    bias_rad_s: list[float] | None = field(None)
+    drift_rad_s2: list[float] | None = field(None)
+
+
+@dataclass(frozen=True)
+class Link:
+    """The serial line between the board and its host, and what goes wrong on it."""
+
+    baud: float = field(9600.0, minimum=50.0, maximum=4e6)
+    bit_error: float = field(0.0, minimum=0.0, maximum=0.5)
+    octet_loss: float = field(0.0, minimum=0.0, maximum=0.5)
+    cuts_s: list[list[float]] = field([])
+
+
+@dataclass(frozen=True)
+class Nav:
+    """The receiver and navigator at the host's end. The period, block length and sequence number are the firmware's."""
+
+    period_s: float = field(above=0.0, maximum=10.0)
+    block_len: int = field(6, minimum=6, maximum=32)
+    sequence: bool = field(True)
+    form: str = field("hist2_opt", choices=FORMS)
+    rate_order: int = field(4, minimum=2, maximum=5)
+    skew_s: list[float] = field([0.0, 0.0, 0.0], minimum=0.0, maximum=1.0)
+    start: str = field("truth", choices=("truth", "level"))
+
+
+@dataclass(frozen=True)
+class Expect:
+    """One check on the summary: a dotted name in it, and a bound."""
+
+    value: str
+    at_most: float | None = field(None)
+    at_least: float | None = field(None)
+
+
+@dataclass(frozen=True)
+class Tables:
+    """A scenario file, as written."""
+
+    schema: int = field(choices=(1,))
+    board: str = field(choices=BOARDS)
+    firmware: str
+    stop_s: float = field(above=0.0, maximum=1e6)
+    motion: Motion
+    clock_hz: int = field(11_059_200, minimum=1_000_000, maximum=33_000_000)
+    seed: int = field(1, minimum=0, maximum=2**63 - 1)
+    stop_samples: int | None = field(None, minimum=1)
+    gyro: Gyro = field(Gyro)
+    link: Link = field(Link)
+    nav: Nav | None = field(None)
+    expect: list[Expect] = field([])
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """A scenario with its files read: everything a run needs."""
+
+    path: Path
+    tables: Tables
+    image: list[tuple[int, bytes]]
+    firmware: Path
+    csv: np.ndarray[Any, Any] | None
+
+
+def find(name: str) -> Path:
+    """A scenario by path, or by the name of one that comes with the package ("default")."""
+    path = Path(name)
+    built_in = PACKAGE / "scenarios" / f"{path.stem}.toml"
+    return built_in if not path.exists() and path.parent == Path() and built_in.exists() else path
+
+
+def load(path: Path, firmware: Path | None = None) -> Scenario:
+    """Read and check a scenario and the files it names. Raises UsageError."""
+    document = Document(path)
+    tables = document.parse(Tables, document.table)
+    _check(document, tables)
+    image_path = firmware or _resolve(document, ("firmware",), tables.firmware, PACKAGE / "firmware")
+    table = None
+    if tables.motion.kind == "csv":
+        table = read_csv(_resolve(document, ("motion", "csv"), tables.motion.csv, None))
+    return Scenario(path, tables, hexfile.load(image_path, FLASH_SIZE), image_path, table)
+
+
+def _resolve(document: Document, key: tuple[str, ...], name: str, built_in: Path | None) -> Path:
+    beside = document.path.parent / name
+    if name and beside.is_file():
+        return beside
+    if name and built_in is not None and (built_in / name).is_file():
+        return built_in / name
+    places = f"{document.path.parent}" + (f" and {built_in}" if built_in else "")
+    raise document.refuse(key, f"found {name!r}, but there is no such file in {places}")
+
+
+def _check(document: Document, tables: Tables) -> None:
+    """What one key alone cannot show."""
+    motion = tables.motion
+    for key, length in (("rate_rad_s", 3),):
+        if len(getattr(motion, key)) != length:
+            raise document.refuse(("motion", key), f"found {getattr(motion, key)!r}, but {length} numbers are needed")
+    for key in ("bias_rad_s", "drift_rad_s2"):
+        if (value := getattr(tables.gyro, key)) is not None and len(value) != 3:
+            raise document.refuse(("gyro", key), f"found {value!r}, but 3 numbers (X, Y, Z) are needed")
+    if tables.nav is not None:
+        if len(tables.nav.skew_s) != 3 or max(tables.nav.skew_s) >= tables.nav.period_s:
+            raise document.refuse(("nav", "skew_s"), "three delays (X, Y, Z) below period_s are needed")
+    elif tables.stop_samples is not None:
+        raise document.refuse(("stop_samples",), "counts the navigator's samples, but there is no [nav] table")
+    end = 0.0
+    for i, cut in enumerate(tables.link.cuts_s):
+        if len(cut) != 2 or not end <= cut[0] < cut[1]:
+            raise document.refuse(("link", "cuts_s", str(i)), f"found {cut!r}, but [from, to] with {end} <= from < to is needed")
+        end = cut[1]
+    for i, expect in enumerate(tables.expect):
+        if expect.at_most is None and expect.at_least is None:
+            raise document.refuse(("expect", str(i)), "needs at_most or at_least")
+
+
+def read_csv(path: Path) -> np.ndarray[Any, Any]:
+    """A motion file with the columns t_s, yaw_rad, pitch_rad, roll_rad. Shape (n, 4). Raises UsageError with the line."""
+    columns = ["t_s", "yaw_rad", "pitch_rad", "roll_rad"]
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(f"{path}: cannot be read: {error}") from error
+    if not rows or [name.strip() for name in rows[0]] != columns:
+        found = ",".join(rows[0]) if rows else "nothing"
+        raise UsageError(f"{path}:1: found {found!r}, but the header must be {','.join(columns)}")
+    values = []
+    for number, row in enumerate(rows[1:], start=2):
+        try:
+            numbers = [float(cell) for cell in row]
+        except ValueError as error:
+            raise UsageError(f"{path}:{number}: {error}") from error
+        if len(numbers) != len(columns) or not all(map(math.isfinite, numbers)):
+            raise UsageError(f"{path}:{number}: found {','.join(row)!r}, but {len(columns)} finite numbers are needed")
+        if values and numbers[0] <= values[-1][0]:
+            raise UsageError(f"{path}:{number}: t_s = {numbers[0]} does not come after {values[-1][0]}")
+        values.append(numbers)
+    if len(values) < 4:
+        raise UsageError(f"{path}: {len(values)} rows, but at least 4 are needed for a spline")
+    return np.array(values)

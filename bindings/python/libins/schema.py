@@ -1,0 +1,111 @@
+"""Typed tables from TOML: a dataclass is the schema, and every refusal names file, line, key, value and what would be right."""
+
+import dataclasses
+import difflib
+import math
+import re
+import tomllib
+import types
+import typing
+from pathlib import Path
+from typing import Any, TypeVar
+
+from libins.errors import UsageError
+
+T = TypeVar("T")
+
+
+def field(default: Any = dataclasses.MISSING, **limits: Any) -> Any:
+    """A dataclass field with limits: minimum, maximum, above (exclusive), choices."""
+    if isinstance(default, (list, dict)) or (dataclasses.is_dataclass(default) and isinstance(default, type)):
+        factory = default if isinstance(default, type) else lambda: type(default)(default)
+        return dataclasses.field(default_factory=factory, metadata=limits)
+    return dataclasses.field(default=default, metadata=limits)
+
+
+class Document:
+    """A parsed TOML file that knows on which line a key stands."""
+
+    def __init__(self, path: Path) -> None:
+        """Read and parse. Raises UsageError for a missing file or a syntax error (tomllib says the line)."""
+        self.path = path
+        try:
+            self.text = path.read_text(encoding="utf-8")
+            self.table = tomllib.loads(self.text)
+        except OSError as error:
+            raise UsageError(f"{path}: cannot be read: {error.strerror}; give the path of a scenario file") from error
+        except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise UsageError(f"{path}: not TOML: {error}") from error
+
+    def line_of(self, key: tuple[str, ...]) -> int:
+        """Line of a key, or of the table that should hold it; 1 when nothing is found."""
+        section: tuple[str, ...] = ()
+        best = 1
+        names = tuple(name for name in key if not name.isdigit())
+        for number, line in enumerate(self.text.splitlines(), start=1):
+            if header := re.match(r"\s*\[+\s*([^\]]+?)\s*\]+", line):
+                section = tuple(part.strip() for part in header[1].split("."))
+                if section == names[: len(section)]:
+                    best = number
+            elif (entry := re.match(r"\s*([\w.-]+)\s*=", line)) and names:
+                full = section + tuple(entry[1].split("."))
+                if full == names[: len(full)]:
+                    best = number
+                    if full == names:
+                        return number
+        return best
+
+    def refuse(self, key: tuple[str, ...], problem: str) -> UsageError:
+        """The error for a key."""
+        return UsageError(f"{self.path}:{self.line_of(key)}: {'.'.join(key)}: {problem}")
+
+    def parse(self, schema: type[T], table: Any, key: tuple[str, ...] = ()) -> T:
+        """A dataclass instance from a table. Raises UsageError."""
+        if not isinstance(table, dict):
+            raise self.refuse(key, f"found {table!r}, but a table is needed here")
+        hints = typing.get_type_hints(schema)
+        fields = {f.name: f for f in dataclasses.fields(schema)}  # type: ignore[arg-type]
+        values: dict[str, Any] = {}
+        for name, value in table.items():
+            if name not in fields:
+                near = difflib.get_close_matches(name, fields, n=1, cutoff=0.5)
+                hint = f"did you mean {near[0]!r}? " if near else ""
+                raise self.refuse((*key, name), f"unknown key; {hint}keys here: {', '.join(fields)}")
+            values[name] = self._value(hints[name], value, (*key, name), fields[name].metadata)
+        for name, f in fields.items():
+            if (
+                name not in values
+                and f.default is dataclasses.MISSING
+                and f.default_factory is dataclasses.MISSING
+            ):
+                raise self.refuse((*key, name), "is missing, and has no default")
+        return schema(**values)
+
+    def _value(self, hint: Any, value: Any, key: tuple[str, ...], limits: Any) -> Any:
+        if isinstance(hint, types.UnionType):
+            hint = next(part for part in typing.get_args(hint) if part is not types.NoneType)
+        if dataclasses.is_dataclass(hint):
+            return self.parse(hint, value, key)  # type: ignore[arg-type]
+        if typing.get_origin(hint) is list:
+            if not isinstance(value, list):
+                raise self.refuse(key, f"found {value!r}, but an array is needed")
+            (item,) = typing.get_args(hint)
+            return [self._value(item, entry, (*key, str(i)), limits) for i, entry in enumerate(value)]
+        return self._scalar(hint, value, key, limits)
+
+    def _scalar(self, hint: type, value: Any, key: tuple[str, ...], limits: Any) -> Any:
+        wanted = {float: "a number", int: "an integer", bool: "true or false", str: "a string"}[hint]
+        if hint is float and isinstance(value, int) and not isinstance(value, bool):
+            value = float(value)
+        if type(value) is not hint:
+            raise self.refuse(key, f"found {value!r}, but {wanted} is needed")
+        if hint is float and not math.isfinite(value):
+            raise self.refuse(key, f"found {value!r}, but a finite number is needed")
+        if "choices" in limits and value not in limits["choices"]:
+            raise self.refuse(key, f"found {value!r}, but one of {', '.join(map(repr, limits['choices']))} is needed")
+        if ("minimum" in limits and value < limits["minimum"]) or ("maximum" in limits and value > limits["maximum"]):
+            low, high = limits.get("minimum", "-inf"), limits.get("maximum", "inf")
+            raise self.refuse(key, f"found {value!r}, but it must lie in {low} .. {high}")
+        if "above" in limits and not value > limits["above"]:
+            raise self.refuse(key, f"found {value!r}, but it must be above {limits['above']}")
+        return value
