@@ -40,12 +40,13 @@ typedef int ins_status_t;
     X(INS_OK, 0, "done")                                                \
     X(INS_E_RANGE, -1, "an argument is out of range or not a number")   \
     X(INS_E_STATE, -2, "not in this state (a transfer is in progress)") \
+    X(INS_E_ABI, -3, "headers and library differ in version or in the size of ins_real") \
     X(INS_S_START, 1, "done with fewer previous samples than the formula wants (start-up)")
 
 #define INS_STATUS_ENUM(name, value, text) name = (value),
 enum
 {
-    INS_STATUS_LIST(INS_STATUS_ENUM) INS_STATUS_COUNT_ = 4
+    INS_STATUS_LIST(INS_STATUS_ENUM) INS_STATUS_COUNT_ = 5
 };
 #undef INS_STATUS_ENUM
 

@@ -21,7 +21,9 @@
 extern "C" {
 #endif
 
-#define INS_HS_BLOCK_MAX 32 ///< octets
+#ifndef INS_HS_BLOCK_MAX
+#define INS_HS_BLOCK_MAX 32 ///< octets; a small target may define it as its own block length
+#endif
 #define INS_HS_REQUEST   0xAAu
 #define INS_HS_READY     0xBBu
 #define INS_HS_ACCEPT    0x00u
@@ -32,8 +34,8 @@ typedef struct ins_hs_config_t
     uint_least8_t block_len; ///< 1..INS_HS_BLOCK_MAX octets; at least 4 with seq.
     uint_least8_t seq;       ///< 1: sequence number in the spare high nibbles of X and Y.
     uint_least8_t retries;   ///< Board: resends of AA, and of the block, before the block is given up. Host: FFs before it waits for AA again.
-    uint16_t reply_timeout;  ///< Board: wait for BB, 00 or FF.
-    uint16_t octet_timeout;  ///< Host: longest silence inside a block. Must be shorter than the board's reply_timeout.
+    uint16_t reply_timeout;  ///< Board: wait for BB, 00 or FF, from the moment ins_hs_board_tx() gave the octet before. Host: 0 or the same.
+    uint16_t octet_timeout;  ///< Host: longest silence inside a block. Must be shorter than the board's reply_timeout. Board: not used.
 } ins_hs_config_t;
 
 /// Board side (A). Start with ins_hs_board_init(). Members are private, the counters readable.
@@ -99,6 +101,12 @@ INS_API ins_status_t ins_hs_host_init(ins_hs_host_t* self, const ins_hs_config_t
 INS_API int ins_hs_host_rx(ins_hs_host_t* self, ins_octet_t octet, uint16_t now, int16_t* reply);
 /// Time passes without an octet. Never call it between octets that are already waiting to be read.
 INS_API void ins_hs_host_tick(ins_hs_host_t* self, uint16_t now);
+
+/// The paper's block of three 12-bit codes, XH XL YH YL ZH ZL. A code's bits 15..12 are not sent: the sequence number may be there.
+/// \param[in] codes  [3] 0..4095. \param[out] block  [6]
+INS_API void ins_hs_block_put(const uint16_t* codes, ins_octet_t* block);
+/// \param[in] block  [6] \param[out] codes  [3] 0..4095
+INS_API void ins_hs_block_codes(const ins_octet_t* block, uint16_t* codes);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,16 @@
+/// \file   ins/ins.h
+/// \brief  All of the core.
+/// SPDX-License-Identifier: MIT
+#ifndef INS_INS_H_INCLUDED
+#define INS_INS_H_INCLUDED
+#include "ins/attitude.h"
+#include "ins/config.h"
+#include "ins/coning.h"
+#include "ins/handshake.h"
+#include "ins/ins_math.h"
+#include "ins/quat.h"
+#include "ins/rates.h"
+#include "ins/reuse.h"
+#include "ins/vec.h"
+#include "ins/version.h"
+#endif // INS_INS_H_INCLUDED
