@@ -1,0 +1,148 @@
+/// One end of an asynchronous serial line, 8N1: shifts octets out at its own baud, samples the other wire at its own baud.
+/// SPDX-License-Identifier: MIT
+#include "emu/serial.h"
+#include <stddef.h>
+
+#define FRAME_BITS   10 ///< start, 8 data (LSB first), stop
+#define SAMPLE_FIRST 7  ///< of 16 per bit; three samples vote
+#define SAMPLES      3
+
+static emu_time_t bits_ps(double bits, double baud)
+{
+    return (emu_time_t)(bits * 1e12 / baud + 0.5);
+}
+
+static void tx_drive(emu_serial_end_t* self, emu_time_t at)
+{
+    const bool one = (self->tx_frame >> self->tx_bit & 1u) != 0;
+    emu_wire_drive(self->tx, self->tx_driver, one ? EMU_STRONG1 : EMU_STRONG0, at);
+    emu_sched_at(self->sched, &self->tx_event, self->tx_start + bits_ps(self->tx_bit + 1.0, self->baud));
+}
+
+static void tx_begin(emu_serial_end_t* self, emu_time_t at)
+{
+    const uint8_t octet = self->fifo[self->fifo_head];
+    self->fifo_head = (self->fifo_head + 1) % EMU_SERIAL_FIFO;
+    self->fifo_count--;
+    self->tx_frame = (uint16_t)(1u << (FRAME_BITS - 1) | (unsigned)octet << 1);
+    self->tx_bit = 0;
+    self->tx_busy = true;
+    self->tx_start = at;
+    tx_drive(self, at);
+}
+
+static void tx_bit_end(void* ctx, emu_time_t at)
+{
+    emu_serial_end_t* const self = ctx;
+    self->tx_bit++;
+    if (self->tx_bit < FRAME_BITS)
+    {
+        tx_drive(self, at);
+        return;
+    }
+    self->octets_sent++;
+    self->tx_busy = false;
+    if (self->fifo_count > 0)
+    {
+        tx_begin(self, at);
+    }
+}
+
+bool emu_serial_end_send(emu_serial_end_t* self, uint8_t octet)
+{
+    if (self->tx == NULL || self->fifo_count == EMU_SERIAL_FIFO)
+    {
+        self->overflow++;
+        return false;
+    }
+    self->fifo[(self->fifo_head + self->fifo_count) % EMU_SERIAL_FIFO] = octet;
+    self->fifo_count++;
+    if (!self->tx_busy)
+    {
+        tx_begin(self, self->sched->now);
+    }
+    return true;
+}
+
+static void rx_arm(emu_serial_end_t* self)
+{
+    const double bits = self->rx_bit + (SAMPLE_FIRST + self->rx_sample) / 16.0;
+    emu_sched_at(self->sched, &self->rx_event, self->rx_start + bits_ps(bits, self->baud));
+}
+
+static void rx_edge(void* ctx, bool level, emu_time_t at)
+{
+    emu_serial_end_t* const self = ctx;
+    if (self->rx_busy || level)
+    {
+        return;
+    }
+    self->rx_busy = true;
+    self->rx_start = at;
+    self->rx_bit = self->rx_sample = self->rx_votes = 0;
+    self->rx_bits = 0;
+    rx_arm(self);
+}
+
+static void rx_take(void* ctx, emu_time_t at)
+{
+    emu_serial_end_t* const self = ctx;
+    self->rx_votes = (uint8_t)(self->rx_votes + self->rx->level);
+    self->rx_sample++;
+    if (self->rx_sample < SAMPLES)
+    {
+        rx_arm(self);
+        return;
+    }
+    const bool one = self->rx_votes * 2 > SAMPLES;
+    self->rx_sample = self->rx_votes = 0;
+    if (self->rx_bit == 0 && one)
+    {
+        self->false_starts++;
+        self->rx_busy = false;
+        return;
+    }
+    self->rx_bits = (uint16_t)(self->rx_bits | (unsigned)one << self->rx_bit);
+    self->rx_bit++;
+    if (self->rx_bit < FRAME_BITS)
+    {
+        rx_arm(self);
+        return;
+    }
+    self->rx_busy = false;
+    self->octets_received++;
+    self->framing_errors += !one;
+    if (self->received != NULL)
+    {
+        self->received(self->ctx, (uint8_t)(self->rx_bits >> 1 & 0xFFu), one, at);
+    }
+}
+
+int emu_serial_end_init(emu_serial_end_t* self, emu_sched_t* sched, emu_wire_t* tx, emu_wire_t* rx, double baud,
+                        emu_serial_rx_fn received, void* ctx)
+{
+    *self = (emu_serial_end_t){
+        .sched = sched,
+        .tx = tx,
+        .rx = rx,
+        .baud = baud,
+        .received = received,
+        .ctx = ctx,
+        .tx_event = {.fire = tx_bit_end, .ctx = self},
+        .rx_event = {.fire = rx_take, .ctx = self},
+    };
+    if (!(baud >= EMU_BAUD_MIN && baud <= EMU_BAUD_MAX) || emu_wire_watch(rx, rx_edge, self) != 0)
+    {
+        return -1;
+    }
+    if (tx != NULL)
+    {
+        self->tx_driver = emu_wire_add_driver(tx);
+        if (self->tx_driver < 0)
+        {
+            return -1;
+        }
+        emu_wire_drive(tx, self->tx_driver, EMU_STRONG1, sched->now);
+    }
+    return 0;
+}
