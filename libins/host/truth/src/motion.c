@@ -1,0 +1,294 @@
+/// \file   motion.c
+/// \brief  Closed forms of attitude and body rate; Gauss-Legendre for the increments. Frames b and n, n inertial; rad,
+/// rad/s, s. SPDX-License-Identifier: MIT
+#include "ins_truth/elementary.h"
+#include "motion_internal.h"
+#include <math.h>
+
+/// Integral, value and derivative of the amplitude that is 1 when under way.
+typedef struct
+{
+    double integral; ///< [s]
+    double value;
+    double slope; ///< [1/s]
+} ramp_t;
+
+static ramp_t ramp_at(const ins_motion_t* self, double t)
+{
+    if (self->ramp_s == 0.0)
+    {
+        return (ramp_t){t, 1.0, 0.0};
+    }
+    if (t <= 0.0)
+    {
+        return (ramp_t){0.0, 0.0, 0.0};
+    }
+    if (t >= self->ramp_s)
+    {
+        return (ramp_t){t - 0.5 * self->ramp_s, 1.0, 0.0};
+    }
+    const double x = t / self->ramp_s;
+    return (ramp_t){self->ramp_s * x * x * x * x * (2.5 + x * (x - 3.0)), x * x * x * (10.0 + x * (6.0 * x - 15.0)),
+                    30.0 * x * x * (1.0 - x) * (1.0 - x) / self->ramp_s};
+}
+
+/// Yaw, pitch, roll of the two Euler kinds, and their derivatives.
+static void angles_at(const ins_motion_t* self, double t, double angle[3], double speed[3])
+{
+    const ramp_t ramp = ramp_at(self, t);
+    double rest[3];
+    if (self->kind == INS_MOTION_TABLE)
+    {
+        ins_spline_at(&self->of.table, t, angle, speed);
+        for (int i = 0; i < 3; i++)
+        {
+            rest[i] = self->of.table.y[i][0];
+            angle[i] -= rest[i];
+        }
+    }
+    else
+    {
+        for (int i = 0; i < 3; i++)
+        {
+            const ins_motion_sine_t* const p = &self->of.sine[i];
+            const double w = 2.0 * INS_TRUTH_PI * p->frequency_hz;
+            double s;
+            double c;
+            ins_sincos(w * t + p->phase, &s, &c);
+            rest[i] = p->offset;
+            angle[i] = p->amplitude * s;
+            speed[i] = p->amplitude * w * c;
+        }
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        speed[i] = ramp.value * speed[i] + ramp.slope * angle[i];
+        angle[i] = rest[i] + ramp.value * angle[i];
+    }
+}
+
+static bool known(double t)
+{
+    return fabs(t) <= INS_MOTION_TIME_MAX_S;
+}
+
+static void fill_nan(double* x, int n)
+{
+    for (int i = 0; i < n; i++)
+    {
+        x[i] = (double)NAN;
+    }
+}
+
+static void quat_product(const double p[4], const double q[4], double out[4])
+{
+    out[0] = p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3];
+    out[1] = p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2];
+    out[2] = p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1];
+    out[3] = p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0];
+}
+
+static void turn_attitude(const ins_motion_turn_t* turn, double elapsed_s, double q_nb[4])
+{
+    const double* const v = turn->w_ib_b;
+    const double w = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    double s;
+    double c;
+    ins_sincos(0.5 * w * elapsed_s, &s, &c);
+    const double k = w > 0.0 ? s / w : 0.0;
+    const double dq[4] = {c, k * v[0], k * v[1], k * v[2]};
+    quat_product(turn->q_nb0, dq, q_nb);
+}
+
+static void coning_attitude(const ins_motion_coning_t* coning, double amplitude, double t, double q_nb[4])
+{
+    double s;
+    double c;
+    double sw;
+    double cw;
+    ins_sincos(0.5 * coning->half_angle * amplitude, &s, &c);
+    ins_sincos(2.0 * INS_TRUTH_PI * coning->frequency_hz * t, &sw, &cw);
+    q_nb[0] = c;
+    q_nb[1] = 0.0;
+    q_nb[2] = s * cw;
+    q_nb[3] = s * sw;
+}
+
+static void euler_attitude(const double ypr[3], double q_nb[4])
+{
+    double s[3];
+    double c[3];
+    for (int i = 0; i < 3; i++)
+    {
+        ins_sincos(0.5 * ypr[i], &s[i], &c[i]);
+    }
+    q_nb[0] = c[0] * c[1] * c[2] + s[0] * s[1] * s[2];
+    q_nb[1] = c[0] * c[1] * s[2] - s[0] * s[1] * c[2];
+    q_nb[2] = c[0] * s[1] * c[2] + s[0] * c[1] * s[2];
+    q_nb[3] = s[0] * c[1] * c[2] - c[0] * s[1] * s[2];
+}
+
+void ins_motion_attitude(const ins_motion_t* self, double t, double q_nb[4])
+{
+    double angle[3];
+    double speed[3];
+    if (!known(t))
+    {
+        fill_nan(q_nb, 4);
+        return;
+    }
+    switch (self->kind)
+    {
+    case INS_MOTION_RATE:
+        turn_attitude(&self->of.turn, ramp_at(self, t).integral, q_nb);
+        break;
+    case INS_MOTION_CONING:
+        coning_attitude(&self->of.coning, ramp_at(self, t).value, t, q_nb);
+        break;
+    case INS_MOTION_SINES:
+    case INS_MOTION_TABLE:
+        angles_at(self, t, angle, speed);
+        euler_attitude(angle, q_nb);
+        break;
+    }
+}
+
+void ins_motion_euler(const ins_motion_t* self, double t, double rpy[3])
+{
+    double q[4];
+    ins_motion_attitude(self, t, q);
+    const double c_xx = 1.0 - 2.0 * (q[2] * q[2] + q[3] * q[3]);
+    const double c_yx = 2.0 * (q[1] * q[2] + q[0] * q[3]);
+    const double c_zx = 2.0 * (q[1] * q[3] - q[0] * q[2]);
+    const double c_zy = 2.0 * (q[2] * q[3] + q[0] * q[1]);
+    const double c_zz = 1.0 - 2.0 * (q[1] * q[1] + q[2] * q[2]);
+    rpy[0] = ins_atan2(c_zy, c_zz);
+    rpy[1] = ins_atan2(-c_zx, sqrt(c_xx * c_xx + c_yx * c_yx));
+    rpy[2] = ins_atan2(c_yx, c_xx);
+}
+
+/// Rotation by a about u = (0, cos wt, sin wt): w_ib_b = a' u + sin a u' - (1 - cos a) u x u'.
+static void coning_rate(const ins_motion_coning_t* coning, ramp_t ramp, double t, double w_ib_b[3])
+{
+    const double w = 2.0 * INS_TRUTH_PI * coning->frequency_hz;
+    const double a_half = 0.5 * coning->half_angle * ramp.value;
+    const double a_speed = coning->half_angle * ramp.slope;
+    double s;
+    double c;
+    double sw;
+    double cw;
+    ins_sincos(a_half, &s, &c);
+    ins_sincos(w * t, &sw, &cw);
+    w_ib_b[0] = -2.0 * w * s * s;
+    w_ib_b[1] = a_speed * cw - 2.0 * w * s * c * sw;
+    w_ib_b[2] = a_speed * sw + 2.0 * w * s * c * cw;
+}
+
+static void euler_rate(const double ypr[3], const double speed[3], double w_ib_b[3])
+{
+    double sp;
+    double cp;
+    double sr;
+    double cr;
+    ins_sincos(ypr[1], &sp, &cp);
+    ins_sincos(ypr[2], &sr, &cr);
+    w_ib_b[0] = speed[2] - speed[0] * sp;
+    w_ib_b[1] = speed[1] * cr + speed[0] * sr * cp;
+    w_ib_b[2] = speed[0] * cr * cp - speed[1] * sr;
+}
+
+void ins_motion_rate(const ins_motion_t* self, double t, double w_ib_b[3])
+{
+    double angle[3];
+    double speed[3];
+    if (!known(t))
+    {
+        fill_nan(w_ib_b, 3);
+        return;
+    }
+    switch (self->kind)
+    {
+    case INS_MOTION_RATE:
+        for (int i = 0; i < 3; i++)
+        {
+            w_ib_b[i] = self->of.turn.w_ib_b[i] * ramp_at(self, t).value;
+        }
+        break;
+    case INS_MOTION_CONING:
+        coning_rate(&self->of.coning, ramp_at(self, t), t, w_ib_b);
+        break;
+    case INS_MOTION_SINES:
+    case INS_MOTION_TABLE:
+        angles_at(self, t, angle, speed);
+        euler_rate(angle, speed, w_ib_b);
+        break;
+    }
+}
+
+/// The first instant after t where some derivative of the motion jumps.
+static double next_break(const ins_motion_t* self, double t)
+{
+    double next = self->kind == INS_MOTION_TABLE ? ins_spline_next_knot(&self->of.table, t) : (double)INFINITY;
+    next = self->ramp_s > t && self->ramp_s < next ? self->ramp_s : next;
+    return self->ramp_s > 0.0 && 0.0 > t && 0.0 < next ? 0.0 : next;
+}
+
+/// 10 nodes on [a, b]; Abramowitz and Stegun 1964, table 25.4.
+static void add_panel(const ins_motion_t* self, double a, double b, double sum[3])
+{
+    static const double node[5][2] = {{0.14887433898163121, 0.29552422471475287},
+                                      {0.43339539412924719, 0.26926671930999636},
+                                      {0.67940956829902441, 0.21908636251598204},
+                                      {0.86506336668898451, 0.14945134915058059},
+                                      {0.97390652851717172, 0.066671344308688138}};
+    const double half = 0.5 * (b - a);
+    const double middle = 0.5 * (a + b);
+    for (int k = 0; k < 5; k++)
+    {
+        double before[3];
+        double after[3];
+        ins_motion_rate(self, middle - half * node[k][0], before);
+        ins_motion_rate(self, middle + half * node[k][0], after);
+        for (int i = 0; i < 3; i++)
+        {
+            sum[i] += half * node[k][1] * (before[i] + after[i]);
+        }
+    }
+}
+
+void ins_motion_increment(const ins_motion_t* self, double t0, double t1, double dtheta_b[3])
+{
+    const double sense = t1 < t0 ? -1.0 : 1.0;
+    const double end = t1 < t0 ? t0 : t1;
+    double t = t1 < t0 ? t1 : t0;
+    double sum[3] = {0.0, 0.0, 0.0};
+    if (!known(t0) || !known(t1))
+    {
+        fill_nan(dtheta_b, 3);
+        return;
+    }
+    if (self->kind == INS_MOTION_RATE)
+    {
+        for (int i = 0; i < 3; i++)
+        {
+            dtheta_b[i] = self->of.turn.w_ib_b[i] * (ramp_at(self, t1).integral - ramp_at(self, t0).integral);
+        }
+        return;
+    }
+    while (t < end)
+    {
+        const double next = next_break(self, t);
+        const double stop = next < end ? next : end;
+        const double panels = floor((stop - t) / self->panel_s) + 1.0;
+        const double width = (stop - t) / panels;
+        for (double k = 0.0; k < panels; k += 1.0)
+        {
+            add_panel(self, t + k * width, t + (k + 1.0) * width, sum);
+        }
+        t = stop;
+    }
+    for (int i = 0; i < 3; i++)
+    {
+        dtheta_b[i] = sense * sum[i];
+    }
+}
