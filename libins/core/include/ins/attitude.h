@@ -9,18 +9,18 @@
 /// SPDX-License-Identifier: MIT
 #ifndef INS_ATTITUDE_H_INCLUDED
 #define INS_ATTITUDE_H_INCLUDED
-#include "ins/coning.h"
 #include "ins/config.h"
+#include "ins/coning.h"
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef struct ins_attitude_t
 {
-    ins_real q_nb[4];     ///< scalar first; v_n = q v_b q*
-    ins_real prev[3][3];  ///< previous increments, newest first [rad]
-    uint_least8_t form;   ///< INS_CONING_ONE, INS_CONING_HIST1 .. INS_CONING_HIST3_*
-    uint_least8_t count;  ///< previous increments held
+    ins_real q_nb[4];    ///< scalar first; v_n = q v_b q*
+    ins_real prev[3][3]; ///< previous increments, newest first [rad]
+    uint_least8_t form;  ///< INS_CONING_ONE, INS_CONING_HIST1 .. INS_CONING_HIST3_*
+    uint_least8_t count; ///< previous increments held
 } ins_attitude_t;
 
 /// \return INS_OK; INS_E_RANGE for a block form, NaN, or a quaternion whose norm is not within 1e-3 of 1 (it is normalised).

@@ -36,11 +36,11 @@ typedef uint_least8_t ins_octet_t;
 /// 0 = done; negative = refused and nothing changed; positive = done, with a remark.
 typedef int ins_status_t;
 
-#define INS_STATUS_LIST(X)                                              \
-    X(INS_OK, 0, "done")                                                \
-    X(INS_E_RANGE, -1, "an argument is out of range or not a number")   \
-    X(INS_E_STATE, -2, "not in this state (a transfer is in progress)") \
-    X(INS_E_ABI, -3, "headers and library differ in version or in the size of ins_real") \
+#define INS_STATUS_LIST(X)                                                                                             \
+    X(INS_OK, 0, "done")                                                                                               \
+    X(INS_E_RANGE, -1, "an argument is out of range or not a number")                                                  \
+    X(INS_E_STATE, -2, "not in this state (a transfer is in progress)")                                                \
+    X(INS_E_ABI, -3, "headers and library differ in version or in the size of ins_real")                               \
     X(INS_S_START, 1, "done with fewer previous samples than the formula wants (start-up)")
 
 #define INS_STATUS_ENUM(name, value, text) name = (value),

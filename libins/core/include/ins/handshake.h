@@ -12,7 +12,9 @@
 /// Option `seq`: an 8-bit sequence number in the high nibbles of octets 0 (bits 7..4) and 2 (bits 3..0), which 12-bit samples leave
 /// zero. B then recognises a block that was resent because its 00 was lost, and a gap is known. Off, the octets are the paper's.
 ///
-/// What the sum cannot show: two octets swapped, errors that compensate. SDCC compiles this header and its source for mcs51.
+/// What the sum cannot show: two octets swapped, errors that compensate. What the sequence number cannot show: 256 blocks lost in a
+/// row (the next is then taken for a repetition). What it needs: a board that counts on; one that starts again from 0 makes a gap.
+/// SDCC compiles this header and both sources for mcs51.
 /// SPDX-License-Identifier: MIT
 #ifndef INS_HANDSHAKE_H_INCLUDED
 #define INS_HANDSHAKE_H_INCLUDED
@@ -24,18 +26,24 @@ extern "C" {
 #ifndef INS_HS_BLOCK_MAX
 #define INS_HS_BLOCK_MAX 32 ///< octets; a small target may define it as its own block length
 #endif
-#define INS_HS_REQUEST   0xAAu
-#define INS_HS_READY     0xBBu
-#define INS_HS_ACCEPT    0x00u
-#define INS_HS_RESEND    0xFFu
+#ifndef INS_HS_MEM
+#define INS_HS_MEM ///< memory of the board machine and its blocks; on an 8051 -DINS_HS_MEM=__idata halves its code
+#endif
+#define INS_HS_REQUEST 0xAAu
+#define INS_HS_READY   0xBBu
+#define INS_HS_ACCEPT  0x00u
+#define INS_HS_RESEND  0xFFu
 
 typedef struct ins_hs_config_t
 {
     uint_least8_t block_len; ///< 1..INS_HS_BLOCK_MAX octets; at least 4 with seq.
     uint_least8_t seq;       ///< 1: sequence number in the spare high nibbles of X and Y.
-    uint_least8_t retries;   ///< Board: resends of AA, and of the block, before the block is given up. Host: FFs before it waits for AA again.
-    uint16_t reply_timeout;  ///< Board: wait for BB, 00 or FF, from the moment ins_hs_board_tx() gave the octet before. Host: 0 or the same.
-    uint16_t octet_timeout;  ///< Host: longest silence inside a block. Must be shorter than the board's reply_timeout. Board: not used.
+    uint_least8_t
+        retries; ///< Board: resends of AA, and of the block, before the block is given up. Host: FFs before it waits for AA again.
+    uint16_t
+        reply_timeout; ///< Board: wait for BB, 00 or FF, from the moment ins_hs_board_tx() gave the octet before. Host: 0 or the same.
+    uint16_t
+        octet_timeout; ///< Host: longest silence inside a block. Must be shorter than the board's reply_timeout. Board: not used.
 } ins_hs_config_t;
 
 /// Board side (A). Start with ins_hs_board_init(). Members are private, the counters readable.
@@ -54,18 +62,19 @@ typedef struct ins_hs_board_t
     uint16_t given_up; ///< blocks dropped after the last retry
 } ins_hs_board_t;
 
-INS_API ins_status_t ins_hs_board_init(ins_hs_board_t* self, const ins_hs_config_t* cfg);
+INS_API ins_status_t ins_hs_board_init(INS_HS_MEM ins_hs_board_t* self, const ins_hs_config_t* cfg);
 /// Offer a block for transmission, with its sequence number (ignored with cfg.seq = 0).
 /// \return INS_OK; INS_E_STATE while an earlier block is on its way (nothing changed; see ins_hs_board_busy).
-INS_API ins_status_t ins_hs_board_offer(ins_hs_board_t* self, const ins_octet_t* block, uint_least8_t seq, uint16_t now);
+INS_API ins_status_t ins_hs_board_offer(INS_HS_MEM ins_hs_board_t* self, const INS_HS_MEM ins_octet_t* block,
+                                        uint_least8_t seq, uint16_t now);
 /// 1 while a block is on its way.
-INS_API uint_least8_t ins_hs_board_busy(const ins_hs_board_t* self);
+INS_API uint_least8_t ins_hs_board_busy(const INS_HS_MEM ins_hs_board_t* self);
 /// Next octet to put on the line, or -1 for none. Call whenever the transmitter is free.
-INS_API int16_t ins_hs_board_tx(ins_hs_board_t* self, uint16_t now);
+INS_API int16_t ins_hs_board_tx(INS_HS_MEM ins_hs_board_t* self, uint16_t now);
 /// An octet came from the host.
-INS_API void ins_hs_board_rx(ins_hs_board_t* self, ins_octet_t octet, uint16_t now);
+INS_API void ins_hs_board_rx(INS_HS_MEM ins_hs_board_t* self, ins_octet_t octet, uint16_t now);
 /// Time passes: call at least every reply_timeout / 2 or so; expires waits.
-INS_API void ins_hs_board_tick(ins_hs_board_t* self, uint16_t now);
+INS_API void ins_hs_board_tick(INS_HS_MEM ins_hs_board_t* self, uint16_t now);
 
 /// What an octet led to, on the host.
 enum
@@ -88,7 +97,7 @@ typedef struct ins_hs_host_t
     uint_least8_t seq; ///< sequence number of the last block delivered (0 with cfg.seq = 0)
     uint_least8_t gap; ///< blocks missing between the last two delivered, modulo 256 (0 with cfg.seq = 0)
     uint16_t since;
-    ins_octet_t block[INS_HS_BLOCK_MAX + 1];
+    ins_octet_t block[INS_HS_BLOCK_MAX];
     uint32_t accepted;   ///< new blocks delivered
     uint32_t duplicates; ///< resent blocks recognised
     uint32_t corrupt;    ///< sums that did not agree
@@ -99,12 +108,14 @@ typedef struct ins_hs_host_t
 INS_API ins_status_t ins_hs_host_init(ins_hs_host_t* self, const ins_hs_config_t* cfg);
 /// An octet came from the board. \param[out] reply octet to send back (BB, 00, FF), or -1. \return one of INS_HS_*.
 INS_API int ins_hs_host_rx(ins_hs_host_t* self, ins_octet_t octet, uint16_t now, int16_t* reply);
-/// Time passes without an octet. Never call it between octets that are already waiting to be read.
+/// Time passes without an octet: call it whenever the line has been silent for more than octet_timeout, else a block that stopped
+/// half-way is found only when the next one fails its sum. Never call it between octets that are already waiting to be read.
 INS_API void ins_hs_host_tick(ins_hs_host_t* self, uint16_t now);
 
-/// The paper's block of three 12-bit codes, XH XL YH YL ZH ZL. A code's bits 15..12 are not sent: the sequence number may be there.
-/// \param[in] codes  [3] 0..4095. \param[out] block  [6]
-INS_API void ins_hs_block_put(const uint16_t* codes, ins_octet_t* block);
+/// The paper's block of three 12-bit codes, XH XL YH YL ZH ZL. A code's bits 15..12 are not sent (ins_hs_board_offer puts the
+/// sequence number there).
+/// \param[in] codes  [3] \param[out] block  [6]
+INS_API void ins_hs_block_put(const INS_HS_MEM uint16_t* codes, INS_HS_MEM ins_octet_t* block);
 /// \param[in] block  [6] \param[out] codes  [3] 0..4095
 INS_API void ins_hs_block_codes(const ins_octet_t* block, uint16_t* codes);
 

@@ -18,8 +18,8 @@ extern "C" {
 typedef struct ins_rates_t
 {
     uint_least8_t order;
-    uint_least8_t count; ///< samples held, 0..order
-    ins_real T;          ///< sampling period [s]
+    uint_least8_t count;                ///< samples held, 0..order
+    ins_real T;                         ///< sampling period [s]
     ins_real w[INS_RATES_ORDER_MAX][3]; ///< newest first [rad/s]
 } ins_rates_t;
 
@@ -29,7 +29,8 @@ INS_API ins_status_t ins_rates_init(ins_rates_t* self, uint_least8_t order, ins_
 /// \return INS_OK; INS_S_START with fewer than `order` samples; INS_E_RANGE for NaN or infinity, self unchanged.
 INS_API ins_status_t ins_rates_add(ins_rates_t* self, const ins_real w_ib_b[3], ins_real dtheta_b[3]);
 /// Next sample after `missing` lost ones (>= 1): trapezoid over (missing + 1) periods; the history restarts here.
-INS_API ins_status_t ins_rates_bridge(ins_rates_t* self, uint32_t missing, const ins_real w_ib_b[3], ins_real dtheta_b[3]);
+INS_API ins_status_t ins_rates_bridge(ins_rates_t* self, uint32_t missing, const ins_real w_ib_b[3],
+                                      ins_real dtheta_b[3]);
 
 /// Channel-skew compensation: channel i is sampled delay_s[i] after the scan's instant; each is interpolated back to it with a
 /// polynomial through its last samples (order 1 linear, 2 parabola, 3 cubic).

@@ -1,0 +1,160 @@
+/// \file   quat.c
+/// \brief  Quaternion algebra and the other forms of an attitude. Scalar first, b -> n.
+/// SPDX-License-Identifier: MIT
+#include "ins/quat.h"
+#include "ins/ins_math.h"
+#include "ins/vec.h"
+
+#define NORM2_MIN INS_C(1e-30)
+#define NORM2_MAX INS_C(1e30)
+#define DCM_TOL   INS_C(1e-3)
+#ifdef INS_REAL_FLOAT
+#define POLE_COS (8 * FLT_EPSILON)
+#else
+#define POLE_COS (8 * DBL_EPSILON) ///< cos(pitch) at and below this is rounding noise
+#endif
+
+static ins_real norm2(const ins_real q[4])
+{
+    return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+}
+
+static void scale(ins_real q[4], ins_real k)
+{
+    q[0] *= k;
+    q[1] *= k;
+    q[2] *= k;
+    q[3] *= k;
+}
+
+void ins_quat_mul(const ins_real p[4], const ins_real q[4], ins_real out[4])
+{
+    const ins_real w = p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3];
+    const ins_real x = p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2];
+    const ins_real y = p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1];
+    const ins_real z = p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0];
+    out[0] = w;
+    out[1] = x;
+    out[2] = y;
+    out[3] = z;
+}
+
+void ins_quat_conj(const ins_real q[4], ins_real out[4])
+{
+    out[0] = q[0];
+    out[1] = -q[1];
+    out[2] = -q[2];
+    out[3] = -q[3];
+}
+
+void ins_quat_rotate(const ins_real q_nb[4], const ins_real v_b[3], ins_real v_n[3])
+{
+    // v + 2 w (r x v) + 2 r x (r x v), r = vector part
+    ins_real t[3];
+    ins_real r_t[3];
+    ins_vec_cross(q_nb + 1, v_b, t);
+    ins_vec_cross(q_nb + 1, t, r_t);
+    ins_vec_copy(v_b, v_n);
+    ins_vec_add_scaled(v_n, 2 * q_nb[0], t);
+    ins_vec_add_scaled(v_n, 2, r_t);
+}
+
+ins_status_t ins_quat_normalise(ins_real q[4])
+{
+    const ins_real n2 = norm2(q);
+    if (!(n2 >= NORM2_MIN && n2 <= NORM2_MAX))
+    {
+        return INS_E_RANGE;
+    }
+    scale(q, 1 / ins_sqrt(n2));
+    return INS_OK;
+}
+
+void ins_quat_normalise_approx(ins_real q[4])
+{
+    scale(q, INS_C(1.5) - INS_C(0.5) * norm2(q));
+}
+
+void ins_quat_from_euler(const ins_real euler[3], ins_real q_nb[4])
+{
+    const ins_real cr = ins_cos(euler[0] / 2);
+    const ins_real sr = ins_sin(euler[0] / 2);
+    const ins_real cp = ins_cos(euler[1] / 2);
+    const ins_real sp = ins_sin(euler[1] / 2);
+    const ins_real cy = ins_cos(euler[2] / 2);
+    const ins_real sy = ins_sin(euler[2] / 2);
+    q_nb[0] = cy * cp * cr + sy * sp * sr;
+    q_nb[1] = cy * cp * sr - sy * sp * cr;
+    q_nb[2] = cy * sp * cr + sy * cp * sr;
+    q_nb[3] = sy * cp * cr - cy * sp * sr;
+}
+
+void ins_quat_to_euler(const ins_real q_nb[4], ins_real euler[3])
+{
+    ins_real c[9];
+    ins_quat_to_dcm(q_nb, c);
+    // atan2 for the pitch too: asin of a sine near 1 loses half of the digits, and needs a clamp.
+    const ins_real cos_pitch = ins_sqrt(c[0] * c[0] + c[3] * c[3]);
+    euler[1] = ins_atan2(-c[6], cos_pitch);
+    if (cos_pitch <= POLE_COS)
+    {
+        euler[0] = 0;
+        euler[2] = ins_atan2(-c[1], c[4]);
+    }
+    else
+    {
+        euler[0] = ins_atan2(c[7], c[8]);
+        euler[2] = ins_atan2(c[3], c[0]);
+    }
+}
+
+void ins_quat_to_dcm(const ins_real q_nb[4], ins_real C_nb[9])
+{
+    const ins_real w = q_nb[0];
+    const ins_real x = q_nb[1];
+    const ins_real y = q_nb[2];
+    const ins_real z = q_nb[3];
+    C_nb[0] = w * w + x * x - y * y - z * z;
+    C_nb[1] = 2 * (x * y - w * z);
+    C_nb[2] = 2 * (x * z + w * y);
+    C_nb[3] = 2 * (x * y + w * z);
+    C_nb[4] = w * w - x * x + y * y - z * z;
+    C_nb[5] = 2 * (y * z - w * x);
+    C_nb[6] = 2 * (x * z - w * y);
+    C_nb[7] = 2 * (y * z + w * x);
+    C_nb[8] = w * w - x * x - y * y + z * z;
+}
+
+ins_status_t ins_quat_from_dcm(const ins_real C_nb[9], ins_real q_nb[4])
+{
+    // 4 q q^T; the row with the largest diagonal is q times its largest element (Shepperd 1978).
+    const ins_real* c = C_nb;
+    const ins_real qq[4][4] = {{1 + c[0] + c[4] + c[8], c[7] - c[5], c[2] - c[6], c[3] - c[1]},
+                               {c[7] - c[5], 1 + c[0] - c[4] - c[8], c[1] + c[3], c[2] + c[6]},
+                               {c[2] - c[6], c[1] + c[3], 1 - c[0] + c[4] - c[8], c[5] + c[7]},
+                               {c[3] - c[1], c[2] + c[6], c[5] + c[7], 1 - c[0] - c[4] + c[8]}};
+    int row = 0;
+    for (int i = 1; i < 4; i++)
+    {
+        row = qq[i][i] > qq[row][row] ? i : row;
+    }
+    ins_real q[4] = {qq[row][0], qq[row][1], qq[row][2], qq[row][3]};
+    if (ins_quat_normalise(q) != INS_OK)
+    {
+        return INS_E_RANGE;
+    }
+    ins_real back[9];
+    ins_quat_to_dcm(q, back);
+    for (int i = 0; i < 9; i++)
+    {
+        if (!(ins_fabs(back[i] - C_nb[i]) <= DCM_TOL))
+        {
+            return INS_E_RANGE;
+        }
+    }
+    for (int i = 0; i < 4; i++)
+    {
+        q_nb[i] = q[i];
+    }
+    return INS_OK;
+}
