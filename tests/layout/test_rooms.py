@@ -16,7 +16,12 @@ ROOMS: dict[str, tuple[str, str, set[str], set[str]]] = {
     "dds": ("libins/host/dds", "ins_dds/", {"ins_dds", "ins_dds_idl"}, {"core", "navd"}),
     "emu_common": ("emu/common", "emu/", {"emu_common"}, set()),
     "emu_8051": ("emu/8051_tlc2543", "emu_8051/", {"emu_8051"}, {"emu_common"}),
-    "python": ("bindings/python", "libins_py/", {"_run", "_dds"}, {"core", "truth", "navd", "dds", "emu_common", "emu_8051"}),
+    "python": (
+        "bindings/python",
+        "libins_py/",
+        {"_run", "_dds"},
+        {"core", "truth", "navd", "dds", "emu_common", "emu_8051"},
+    ),
 }
 # A firmware folder holds programs for a board, not parts of the emulator: it may include core.
 FIRMWARE = "firmware"
@@ -31,9 +36,17 @@ def crossings(root: Path) -> list[str]:
                 continue
             may = allowed | {room} | ({"core"} if FIRMWARE in path.relative_to(root / folder).parts else set())
             if path.suffix in {".c", ".h", ".cpp", ".hpp", ".idl"}:
-                found += [f"{path.relative_to(root)}:{n}: {room} -> {other} ({text})" for n, other, text in includes(root, path) if other not in may]
+                found += [
+                    f"{path.relative_to(root)}:{n}: {room} -> {other} ({text})"
+                    for n, other, text in includes(root, path)
+                    if other not in may
+                ]
             elif path.name == "CMakeLists.txt" or path.suffix == ".cmake":
-                found += [f"{path.relative_to(root)}:{n}: {room} -> {other} ({text})" for n, other, text in links(path) if other not in may]
+                found += [
+                    f"{path.relative_to(root)}:{n}: {room} -> {other} ({text})"
+                    for n, other, text in links(path)
+                    if other not in may
+                ]
     return found
 
 
@@ -72,7 +85,11 @@ def test_no_forbidden_arrow() -> None:
         ("libins/core/src/bad.c", '#include "emu/time.h"\n', "core -> emu_common"),
         ("emu/8051_tlc2543/cpu/bad.c", "#include <ins/quat.h>\n", "emu_8051 -> core"),
         ("emu/common/src/bad.c", '#include "../../8051_tlc2543/include/emu_8051/mcs51.h"\n', "emu_common -> emu_8051"),
-        ("libins/host/truth/CMakeLists.txt", "target_link_libraries(ins_truth PUBLIC emu_common)\n", "truth -> emu_common"),
+        (
+            "libins/host/truth/CMakeLists.txt",
+            "target_link_libraries(ins_truth PUBLIC emu_common)\n",
+            "truth -> emu_common",
+        ),
     ],
 )
 def test_a_forbidden_arrow_is_found(tmp_path: Path, path: str, text: str, arrow: str) -> None:
@@ -94,7 +111,9 @@ def test_firmware_may_include_core_but_not_the_host(tmp_path: Path) -> None:
 
 
 def test_every_tracked_source_is_in_a_room() -> None:
-    tracked = subprocess.run(["git", "ls-files", "*.c", "*.h", "*.cpp"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    tracked = subprocess.run(
+        ["git", "ls-files", "*.c", "*.h", "*.cpp"], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout.split()
     free = ("tests/", "bench/", "examples/")
     folders = tuple(folder + "/" for folder, *_ in ROOMS.values())
     assert [path for path in tracked if not path.startswith(free + folders)] == []

@@ -80,7 +80,9 @@ class Tcp:
             self._server.bind(("127.0.0.1", port))
         except OSError as error:
             self._server.close()
-            raise UsageError(f"tcp:{port}: cannot listen on 127.0.0.1: {error.strerror}; choose another port") from error
+            raise UsageError(
+                f"tcp:{port}: cannot listen on 127.0.0.1: {error.strerror}; choose another port"
+            ) from error
         self._server.listen(1)
         self._server.setblocking(False)
         self._client: socket.socket | None = None

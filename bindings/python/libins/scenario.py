@@ -15,10 +15,11 @@ from libins import hexfile
 from libins.errors import UsageError
 from libins.schema import Document, field
 
-PACKAGE = Path(__file__).resolve().parent
+PACKAGE = Path(__file__).absolute().parent
+"""In the build tree the modules are links: what was built lies beside the links."""
 FLASH_SIZE = 4096  # AT89S51
 BOARDS = ("8051_tlc2543",)
-FORMS = ("one", "hist1", "hist2_poly", "hist2_opt", "hist3_poly", "hist3_opt")
+FORMS = ("one", "hist1", "hist2_fit", "hist2_opt", "hist3_fit", "hist3_opt")
 
 
 @dataclass(frozen=True)
@@ -164,7 +165,9 @@ def _check(document: Document, tables: Tables) -> None:
     end = 0.0
     for i, cut in enumerate(tables.link.cuts_s):
         if len(cut) != 2 or not end <= cut[0] < cut[1]:
-            raise document.refuse(("link", "cuts_s", str(i)), f"found {cut!r}, but [from, to] with {end} <= from < to is needed")
+            raise document.refuse(
+                ("link", "cuts_s", str(i)), f"found {cut!r}, but [from, to] with {end} <= from < to is needed"
+            )
         end = cut[1]
     for i, expect in enumerate(tables.expect):
         if expect.at_most is None and expect.at_least is None:

@@ -1,4 +1,4 @@
-"""Typed tables from TOML: a dataclass is the schema, and every refusal names file, line, key, value and what would be right."""
+"""Typed tables from TOML: a dataclass is the schema; a refusal names file, line, key, value and what would be right."""
 
 import dataclasses
 import difflib
@@ -73,11 +73,7 @@ class Document:
                 raise self.refuse((*key, name), f"unknown key; {hint}keys here: {', '.join(fields)}")
             values[name] = self._value(hints[name], value, (*key, name), fields[name].metadata)
         for name, f in fields.items():
-            if (
-                name not in values
-                and f.default is dataclasses.MISSING
-                and f.default_factory is dataclasses.MISSING
-            ):
+            if name not in values and f.default is dataclasses.MISSING and f.default_factory is dataclasses.MISSING:
                 raise self.refuse((*key, name), "is missing, and has no default")
         return schema(**values)
 
@@ -99,7 +95,7 @@ class Document:
             value = float(value)
         if type(value) is not hint:
             raise self.refuse(key, f"found {value!r}, but {wanted} is needed")
-        if hint is float and not math.isfinite(value):
+        if isinstance(value, float) and not math.isfinite(value):
             raise self.refuse(key, f"found {value!r}, but a finite number is needed")
         if "choices" in limits and value not in limits["choices"]:
             raise self.refuse(key, f"found {value!r}, but one of {', '.join(map(repr, limits['choices']))} is needed")

@@ -1,0 +1,1 @@
+"""libins: inertial navigation from the sensor's volts to a message on the network."""

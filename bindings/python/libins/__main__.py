@@ -1,0 +1,5 @@
+"""`python -m libins` is the `ins` command."""
+
+from libins.cli import main
+
+raise SystemExit(main())

@@ -1,0 +1,211 @@
+"""The `ins` command."""
+
+import argparse
+import json
+import os
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+from libins import endpoint, report, run, scenario
+from libins.errors import UsageError
+
+EXIT_USAGE = 2
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="ins", description="Inertial navigation from the sensor's volts to a message on the network."
+    )
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    r = commands.add_parser(
+        "run",
+        help="run a scenario on an emulated board",
+        description="Exit codes: 0 all expectations met, 1 one failed, 2 bad usage or scenario, 3 the firmware did something wrong "
+        "(with --strict), 42 the simulated time ran out.",
+    )
+    r.add_argument("scenario", help="a TOML file, or the name of one that comes with the package (default, s3_paper)")
+    r.add_argument("--firmware", type=Path, metavar="F.ihx", help="another image than the scenario's")
+    r.add_argument("--json", type=Path, metavar="F", help="write the summary there ('-': standard output)")
+    r.add_argument("--report", type=Path, metavar="F.html", help="write a report with plots")
+    r.add_argument("--states", type=Path, metavar="F.csv", help="write every navigation state beside its truth")
+    r.add_argument("--trace", type=Path, metavar="F.csv", help="write every edge of every traced wire")
+    r.add_argument("--seed", type=int, metavar="N")
+    r.add_argument("--stop-s", type=float, metavar="S", help="simulated seconds, instead of the scenario's stop_s")
+    r.add_argument(
+        "--speed", default=None, metavar="max|X", help="simulated seconds a wall second (max; 1 with --serial)"
+    )
+    r.add_argument("--strict", action="store_true", help="exit 3 when the firmware did something wrong")
+    r.add_argument("--dds", action="store_true", help="publish the navigation states while they come")
+    r.add_argument("--serial", metavar="NAME=pty[:LINK]|tcp:PORT|file:F", help="tie a UART of the board to the outside")
+    _dds_options(r)
+
+    commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
+
+    s = commands.add_parser("sub", help="print navigation states that arrive over DDS, one line of JSON each")
+    s.add_argument("--limit", type=int, metavar="N", help="stop after N states")
+    s.add_argument("--timeout-s", type=float, metavar="S", help="exit 1 when nothing arrives for so long")
+    _dds_options(s)
+    return parser
+
+
+def _dds_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--domain", type=int, default=0, metavar="N", help="DDS domain id, 0..230 (0)")
+    parser.add_argument("--topic", default=None, metavar="T", help="DDS topic name")
+    parser.add_argument(
+        "--dds-config",
+        type=Path,
+        metavar="F.xml",
+        help="Cyclone DDS configuration; without it, the loopback interface only",
+    )
+
+
+def open_dds(options: argparse.Namespace, publishes: bool) -> Any:
+    """A DDS handle from the command line's options. Raises UsageError."""
+    try:
+        from libins import _dds
+    except ImportError as error:
+        raise UsageError("this build has no DDS: install cyclonedds-dev and build with INS_BUILD_DDS=ON") from error
+    xml = None
+    if options.dds_config is not None:
+        try:
+            xml = options.dds_config.read_text(encoding="utf-8")
+        except OSError as error:
+            raise UsageError(f"{options.dds_config}: cannot be read: {error.strerror}") from error
+    if not 0 <= options.domain <= 230:
+        raise UsageError(f"--domain {options.domain}: must lie in 0 .. 230")
+    try:
+        return _dds.Handle(options.domain, options.topic or _dds.TOPIC, xml, publishes)
+    except RuntimeError as error:
+        raise UsageError(f"DDS: {error}") from error
+
+
+def _speed(text: str | None) -> float | None:
+    if text is None or text == "max":
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.001 <= value <= 1e6:
+        raise UsageError(f"--speed {text}: 'max' or a number in 0.001 .. 1e6 is needed")
+    return value
+
+
+def _write(path: Path, text: str) -> None:
+    """The whole file or nothing of it."""
+    if str(path) == "-":
+        sys.stdout.write(text)
+        return
+    temporary = path.with_name(path.name + ".part")
+    try:
+        temporary.write_text(text, encoding="utf-8")
+        temporary.replace(path)
+    except OSError as error:
+        raise UsageError(f"{path}: cannot be written: {error.strerror}; choose another place") from error
+
+
+def _run_command(options: argparse.Namespace) -> int:
+    if options.stop_s is not None and not 0 < options.stop_s <= 1e6:
+        raise UsageError(f"--stop-s {options.stop_s}: must lie above 0 and up to 1e6")
+    if options.seed is not None and not 0 <= options.seed < 2**63:
+        raise UsageError(f"--seed {options.seed}: must lie in 0 .. 2^63 - 1")
+    loaded = scenario.load(scenario.find(options.scenario), options.firmware)
+    console = Console(stderr=True)
+    settings = run.Options(seed=options.seed, stop_s=options.stop_s, speed=_speed(options.speed), strict=options.strict)
+    handle = open_dds(options, publishes=True) if options.dds else None
+    if handle is not None:
+        source = loaded.path.stem
+        settings.publish = lambda state: handle.publish(state, source, time.time_ns())
+    trace_lines = ["t_ps,wire,level\n"]
+    if options.trace is not None:
+        settings.trace = lambda edges: trace_lines.extend(report.trace_lines(edges))
+    try:
+        if options.serial is not None:
+            settings.endpoint = endpoint.open_endpoint(options.serial)
+            print(f"uart: {settings.endpoint.label}", file=sys.stderr, flush=True)
+        stop_s = options.stop_s or loaded.tables.stop_s
+        with Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TextColumn("{task.completed:.1f} of {task.total:.1f} s simulated"),
+            TimeRemainingColumn(),
+            console=console,
+            disable=not console.is_terminal,
+            transient=True,
+        ) as progress:
+            task = progress.add_task(loaded.path.stem, total=stop_s)
+            settings.progress = lambda t, _: progress.update(task, completed=t)
+            result = run.execute(loaded, settings)
+    finally:
+        if settings.endpoint is not None:
+            settings.endpoint.close()
+        if handle is not None:
+            handle.close()
+    if options.json is not None:
+        _write(options.json, run.to_json(result.summary))
+    if options.states is not None:
+        _write(options.states, report.states_csv(result.states))
+    if options.trace is not None:
+        _write(options.trace, "".join(trace_lines))
+    if options.report is not None:
+        _write(options.report, report.html(loaded, result))
+    if str(options.json) != "-":
+        print(report.text(result.summary))
+    return result.exit_code
+
+
+def navd_path() -> Path:
+    """Where the daemon's binary is. Raises UsageError."""
+    path = scenario.PACKAGE / "bin" / "ins-navd"
+    if not path.exists():
+        raise UsageError(f"{path}: ins-navd is not built; run ./dev demo or ./dev test once")
+    return path
+
+
+def _sub_command(options: argparse.Namespace) -> int:
+    handle = open_dds(options, publishes=False)
+    count = 0
+    last = time.monotonic()
+    try:
+        while options.limit is None or count < options.limit:
+            for sample in handle.take(0.1):
+                last = time.monotonic()
+                if sample["gone"]:
+                    print(f"{sample['source']}: its publisher has gone", file=sys.stderr)
+                    continue
+                head = json.dumps({"source": sample["source"], "published_ns": sample["published_ns"]})[:-1]
+                print(f"{head}, {sample['json'].strip()[1:]}", flush=True)
+                count += 1
+                if count == options.limit:
+                    break
+            if options.timeout_s is not None and time.monotonic() - last > options.timeout_s:
+                print(f"ins sub: nothing arrived for {options.timeout_s} s on domain {options.domain}", file=sys.stderr)
+                return 1
+    finally:
+        handle.close()
+    return 0
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Entry point. Returns the exit code."""
+    arguments = sys.argv[1:] if arguments is None else arguments
+    try:
+        if arguments[:1] == ["nav"]:
+            path = navd_path()
+            os.execv(path, [str(path), *arguments[1:]])
+        options = _parser().parse_args(arguments)
+        return _run_command(options) if options.command == "run" else _sub_command(options)
+    except UsageError as error:
+        print(f"ins: {error}", file=sys.stderr)
+        return EXIT_USAGE
+    except KeyboardInterrupt:
+        return 130
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0

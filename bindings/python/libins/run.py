@@ -1,0 +1,250 @@
+"""A scenario, run: in virtual time as fast as the machine goes, or paced, with a host inside the run or outside on a serial endpoint."""
+
+import hashlib
+import json
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from libins import _run
+from libins.endpoint import Endpoint
+from libins.errors import UsageError
+from libins.scenario import Scenario, Sinusoid
+
+PS_PER_S = 10**12
+SLICE_S = 0.1
+"""Virtual time between two looks at the results, unpaced."""
+PACED_SLICE_S = 0.001
+INSIDE = ("link.", "attitude.", "age_s.")
+"""Values that need the navigator inside the run; with a host outside, expectations on them are not judged."""
+AXES = ("roll", "pitch", "yaw")
+COLUMNS = {name: i for i, name in enumerate(_run.STATE_COLUMNS)}
+
+Array = np.ndarray[Any, Any]
+
+
+@dataclass
+class Result:
+    """What came out of a run. `states` has the columns _run.STATE_COLUMNS, `scans` _run.SCAN_COLUMNS."""
+
+    summary: dict[str, Any]
+    states: Array
+    scans: Array
+    exit_code: int
+
+
+@dataclass
+class Options:
+    """How to run, beside what the scenario says."""
+
+    seed: int | None = None
+    stop_s: float | None = None
+    speed: float | None = None
+    """Simulated seconds a wall second; None = as fast as it goes."""
+    strict: bool = False
+    endpoint: Endpoint | None = None
+    publish: Callable[[bytes], None] | None = None
+    trace: Callable[[Array], None] | None = None
+    progress: Callable[[float, Array], None] | None = None
+    """Called with the simulated time and the new states."""
+
+
+def motion_of(scenario: Scenario) -> Any:
+    """The scenario's motion. Raises UsageError."""
+
+    def sine(s: Sinusoid) -> list[float]:
+        return [s.offset_rad, s.amplitude_rad, s.frequency_hz, s.phase_rad]
+
+    motion = scenario.tables.motion
+    try:
+        if motion.kind == "csv":
+            assert scenario.csv is not None
+            t, yaw, pitch, roll = (column.tolist() for column in scenario.csv.T)
+            return _run.motion_table(t, yaw, pitch, roll, motion.ramp_s)
+        if motion.kind == "coning":
+            return _run.motion_coning(motion.half_angle_rad, motion.frequency_hz, motion.ramp_s)
+        if motion.kind == "sinusoids":
+            return _run.motion_euler(sine(motion.yaw), sine(motion.pitch), sine(motion.roll), motion.ramp_s)
+        rate = motion.rate_rad_s if motion.kind == "constant_rate" else [0.0, 0.0, 0.0]
+        return _run.motion_rate(rate, motion.ramp_s)
+    except ValueError as error:
+        raise UsageError(f"{scenario.path}: motion: {error}") from error
+
+
+def gyro_of(scenario: Scenario, seed: int) -> Any:
+    """The scenario's gyros."""
+    tables = scenario.tables.gyro
+    gyro = _run.gyro_cg_l53() if tables.preset == "cg_l53" else _run.gyro_ideal()
+    gyro.seed = seed
+    for key in ("bandwidth_hz", "noise_rad_s_rthz"):
+        if (value := getattr(tables, key)) is not None:
+            gyro.set(key, [value] * 3)
+    for key in ("bias_rad_s", "drift_rad_s2"):
+        if (values := getattr(tables, key)) is not None:
+            gyro.set(key, values)
+    return gyro
+
+
+def build(scenario: Scenario, seed: int, outside: bool, trace: bool) -> Any:
+    """The run itself, at time 0. Raises UsageError."""
+    tables = scenario.tables
+    gyro = gyro_of(scenario, seed)
+    config = _run.RunConfig()
+    config.crystal_hz = tables.clock_hz
+    config.seed = seed
+    config.baud = tables.link.baud
+    config.bit_error = tables.link.bit_error
+    config.octet_loss = tables.link.octet_loss
+    config.cuts_s = [(a, b) for a, b in tables.link.cuts_s]
+    config.trace = trace
+    for address, octets in scenario.image:
+        config.add_segment(address, octets)
+    if tables.nav is not None and not outside:
+        n = tables.nav
+        config.nav = _run.nav(n.period_s, n.block_len, n.sequence, n.form, n.rate_order, n.skew_s, gyro)
+        config.start_at_truth = n.start == "truth"
+    try:
+        return _run.Run(config, motion_of(scenario), gyro)
+    except ValueError as error:
+        raise UsageError(f"{scenario.path}: {error}") from error
+
+
+def execute(scenario: Scenario, options: Options) -> Result:
+    """Run to the end and judge. Raises UsageError."""
+    tables = scenario.tables
+    seed = tables.seed if options.seed is None else options.seed
+    stop_s = tables.stop_s if options.stop_s is None else options.stop_s
+    if tables.motion.kind == "csv" and scenario.csv is not None and scenario.csv[-1, 0] < stop_s:
+        raise UsageError(f"{scenario.path}: the motion ends at {scenario.csv[-1, 0]} s, before stop_s = {stop_s}")
+    run = build(scenario, seed, options.endpoint is not None, trace=True)
+    speed = options.speed if options.endpoint is None or options.speed is not None else 1.0
+    digest = hashlib.sha256()
+    blocks: list[Array] = []
+    published = 0
+    started = time.monotonic()
+    stop_ps = round(stop_s * PS_PER_S)
+    reached_samples = False
+    while run.now_ps < stop_ps and not reached_samples:
+        if speed is None:
+            run.until(min(stop_ps, run.now_ps + round(SLICE_S * PS_PER_S)))
+        else:
+            paced(run, speed, started, stop_ps, options.endpoint)
+        states, raw = run.take_states()
+        edges = run.take_edges()
+        digest.update(edges.tobytes())
+        if options.trace is not None:
+            options.trace(edges)
+        if options.publish is not None:
+            for state in raw:
+                options.publish(state)
+                published += 1
+        if len(states):
+            blocks.append(states)
+        if options.progress is not None:
+            options.progress(run.now_ps / PS_PER_S, states)
+        used = sum(len(block) for block in blocks)
+        reached_samples = tables.stop_samples is not None and used >= tables.stop_samples
+    wall_s = time.monotonic() - started
+    states = np.concatenate(blocks) if blocks else np.empty((0, len(COLUMNS)))
+    summary = {
+        "scenario": scenario.path.name,
+        "firmware": scenario.firmware.name,
+        "sim_s": run.now_ps / PS_PER_S,
+        "wall_s": wall_s,
+        "speed": run.now_ps / PS_PER_S / wall_s if wall_s > 0 else None,
+        "seed": seed,
+        **_measured(scenario, run, states, outside=options.endpoint is not None),
+        "dds": {"published": published, "received": None} if options.publish is not None else None,
+        "trace_sha256": digest.hexdigest(),
+        "reports": run.reports(),
+    }
+    judged = [e for e in tables.expect if summary["link"] is not None or not e.value.startswith(INSIDE)]
+    failed = [text for text in (_failure(expect, summary) for expect in judged) if text]
+    summary["not_judged"] = [e.value for e in tables.expect if e not in judged]
+    summary["failed"] = failed
+    summary["verdict"] = "fail" if failed else "pass"
+    code = 1 if failed else 0
+    if tables.stop_samples is not None and not reached_samples:
+        code = 42
+        failed.append(f"stop_samples: {len(states)} of {tables.stop_samples} samples came in {stop_s} s simulated")
+        summary["verdict"] = "fail"
+    if options.strict and summary["reports"]:
+        code = 3
+        summary["verdict"] = "fail"
+    return Result(summary, states, run.scans(), code)
+
+
+def paced(run: Any, speed: float, started: float, stop_ps: int, endpoint: Endpoint | None) -> None:
+    """One slice of a run that keeps to the wall clock and talks to the outside."""
+    if endpoint is not None and (octets := endpoint.read()):
+        run.send(octets)
+    due_ps = round((time.monotonic() - started) * speed * PS_PER_S)
+    run.until(min(stop_ps, max(due_ps, run.now_ps + round(PACED_SLICE_S * speed * PS_PER_S))))
+    if endpoint is not None and (octets := run.take_octets()):
+        endpoint.write(octets)
+    ahead_s = run.now_ps / PS_PER_S / speed - (time.monotonic() - started)
+    if ahead_s > 0:
+        time.sleep(ahead_s)
+
+
+def _measured(scenario: Scenario, run: Any, states: Array, outside: bool) -> dict[str, Any]:
+    """The part of the summary that is the same for the same scenario and seed."""
+    c = run.counters()
+    cpu = {key: c[key] for key in ("instructions", "cycles", "interrupts")}
+    if scenario.tables.nav is None or outside:
+        return {"cpu": cpu, "samples": c["sampled"], "link": None, "attitude": None, "age_s": None}
+    first = int(states[0, COLUMNS["scan"]]) if len(states) else c["sampled"]
+    last = int(states[-1, COLUMNS["scan"]]) if len(states) else first - 1
+    link = {
+        "sent": c["sampled"],
+        "ok": c["accepted"],
+        "retried": c["duplicates"] + c["corrupt"] + c["timeouts"],
+        "lost": c["lost"],
+        "corrupt_accepted": c["corrupt_accepted"],
+        "before_first": first,
+        "in_flight": c["sampled"] - 1 - last,
+        **{
+            key: c[key]
+            for key in ("duplicates", "corrupt", "timeouts", "stray", "invalid", "framing_errors", "octets_received")
+        },
+        "bits_inverted": c["slots_inverted"],
+        "octets_swallowed": c["octets_swallowed"],
+    }
+    return {"cpu": cpu, "samples": c["sampled"], "link": link, **accuracy(states)}
+
+
+def accuracy(states: Array) -> dict[str, Any]:
+    """The summary's `attitude` and `age_s`; None without states."""
+    if not len(states):
+        return {"attitude": None, "age_s": None}
+    errors = states[:, [COLUMNS[f"error_{axis}_rad"] for axis in AXES]]
+    ages = states[:, COLUMNS["age_s"]]
+    return {
+        "attitude": {
+            "rms_rad": dict(zip(AXES, np.sqrt(np.mean(errors**2, axis=0)).tolist(), strict=True)),
+            "max_rad": dict(zip(AXES, np.max(np.abs(errors), axis=0).tolist(), strict=True)),
+        },
+        "age_s": {"min": float(ages.min()), "mean": float(ages.mean()), "max": float(ages.max())},
+    }
+
+
+def _failure(expect: Any, summary: dict[str, Any]) -> str | None:
+    """Why an expectation is not met, or None."""
+    value: Any = summary
+    for name in expect.value.split("."):
+        value = value.get(name) if isinstance(value, dict) else None
+    if not isinstance(value, (int, float)):
+        return f"{expect.value}: found {value!r}, which is no number"
+    if expect.at_most is not None and not value <= expect.at_most:
+        return f"{expect.value} = {value:.6g}, expected at most {expect.at_most:g}"
+    if expect.at_least is not None and not value >= expect.at_least:
+        return f"{expect.value} = {value:.6g}, expected at least {expect.at_least:g}"
+    return None
+
+
+def to_json(summary: dict[str, Any]) -> str:
+    """The summary as one JSON document; the same bytes for the same run, wall_s and speed aside."""
+    return json.dumps(summary, indent=2) + "\n"

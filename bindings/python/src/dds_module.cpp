@@ -1,0 +1,124 @@
+/// \file   dds_module.cpp
+/// \brief  The Python module libins._dds: publisher and subscriber over libins_dds. SPDX-License-Identifier: MIT
+#include "ins_dds/dds.h"
+#include <array>
+#include <cstring>
+#include <memory>
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace
+{
+
+class Handle
+{
+  public:
+    Handle(uint32_t domain, const std::string& topic, const std::optional<std::string>& xml, bool publishes)
+    {
+        ins_dds_config_t cfg;
+        ins_dds_config_default(&cfg);
+        cfg.domain = domain;
+        cfg.topic = topic.c_str();
+        cfg.network = xml ? INS_DDS_XML : INS_DDS_LOOPBACK;
+        cfg.xml = xml ? xml->c_str() : nullptr;
+        cfg.publishes = publishes ? 1 : 0;
+        cfg.subscribes = publishes ? 0 : 1;
+        cfg.history = publishes ? cfg.history : 256;
+        if (ins_dds_open(&cfg, &self_) != INS_DDS_OK)
+        {
+            throw std::runtime_error(ins_dds_error_text());
+        }
+    }
+    ~Handle() { close(); }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+
+    void close()
+    {
+        ins_dds_close(self_);
+        self_ = nullptr;
+    }
+    ins_dds_t* get() const
+    {
+        if (self_ == nullptr)
+        {
+            throw std::runtime_error("this DDS handle is closed");
+        }
+        return self_;
+    }
+
+  private:
+    ins_dds_t* self_ = nullptr;
+};
+
+int checked(int result)
+{
+    if (result < 0)
+    {
+        throw std::runtime_error(ins_dds_error_text());
+    }
+    return result;
+}
+
+/// raw: the octets of an ins_nav_state_t, as Run.take_states() gives them.
+void publish(Handle& handle, const nb::bytes& raw, const std::string& source, int64_t published_ns)
+{
+    ins_nav_state_t state;
+    if (raw.size() != sizeof state)
+    {
+        throw std::invalid_argument("a navigation state of another size: _run and _dds are of different builds");
+    }
+    std::memcpy(&state, raw.c_str(), sizeof state);
+    checked(ins_dds_publish(handle.get(), &state, source.c_str(), published_ns));
+}
+
+/// Samples as dictionaries: source, published_ns, gone, and the state as its line of JSON.
+nb::list take(Handle& handle, double timeout_s)
+{
+    std::vector<ins_dds_sample_t> samples(64);
+    int count = 0;
+    {
+        const nb::gil_scoped_release release;
+        count = ins_dds_take(handle.get(), timeout_s, samples.data(), static_cast<int>(samples.size()));
+    }
+    checked(count);
+    nb::list list;
+    for (size_t i = 0; i < static_cast<size_t>(count); i++)
+    {
+        std::array<char, INS_NAV_JSON_MAX> json{};
+        nb::dict d;
+        d["source"] = samples[i].source;
+        d["published_ns"] = samples[i].published_ns;
+        d["gone"] = samples[i].gone != 0;
+        if (samples[i].gone == 0)
+        {
+            ins_nav_state_json(&samples[i].state, json.data(), json.size());
+            d["json"] = json.data();
+        }
+        list.append(d);
+    }
+    return list;
+}
+
+} // namespace
+
+NB_MODULE(_dds, m)
+{
+    m.doc() = "Navigation states over DDS; see ins_dds/dds.h.";
+    m.attr("TOPIC") = INS_DDS_TOPIC;
+    nb::class_<Handle>(m, "Handle")
+        .def(nb::init<uint32_t, const std::string&, const std::optional<std::string>&, bool>(), "domain"_a, "topic"_a,
+             "xml"_a.none(), "publishes"_a)
+        .def("publish", publish, "state"_a, "source"_a, "published_ns"_a)
+        .def("take", take, "timeout_s"_a)
+        .def("matched", [](const Handle& self) { return checked(ins_dds_matched(self.get())); })
+        .def("close", &Handle::close);
+}

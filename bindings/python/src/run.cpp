@@ -1,0 +1,255 @@
+/// \file   run.cpp
+/// \brief  See run.hpp. SPDX-License-Identifier: MIT
+#include "run.hpp"
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace libins
+{
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+/// A block is looked for among the scans of this many periods before it was accepted: the board sends its newest scan, and gives a
+/// block up long before.
+constexpr size_t origin_window = 64;
+
+double wrapped(double angle)
+{
+    return angle - 2.0 * pi * std::floor((angle + pi) / (2.0 * pi));
+}
+
+emu_time_t picoseconds(double seconds)
+{
+    return static_cast<emu_time_t>(std::floor(seconds * 1e12 + 0.5));
+}
+
+} // namespace
+
+Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const ins_gyro_config_t& gyro)
+    : config_(config), motion_(std::move(motion))
+{
+    std::array<char, 256> why{};
+    if (!ins_gyro_init(&gyro_, &gyro, motion_.get(), why.data(), why.size()))
+    {
+        throw std::invalid_argument(why.data());
+    }
+    if (config_.nav)
+    {
+        if (const char* problem = ins_nav_config_problem(&*config_.nav))
+        {
+            throw std::invalid_argument(problem);
+        }
+        ins_nav_link_init(&link_, &*config_.nav);
+    }
+    emu_sched_init(&sched_);
+    acq_board_config_t board;
+    acq_board_default_config(&board);
+    board.crystal_hz = config_.crystal_hz;
+    board.adc.analog = {ins_gyro_volts, &gyro_};
+    board.adc.sampled = on_sample;
+    board.adc.sampled_ctx = this;
+    board.adc.report = {on_report, this};
+    board.report = {on_report, this};
+    board_.reset(acq_board_create(&board, &sched_));
+    if (!board_)
+    {
+        throw std::invalid_argument("the board could not be made: out of memory, or a crystal outside its range");
+    }
+    for (const Segment& segment : config_.image)
+    {
+        const auto* octets = reinterpret_cast<const uint8_t*>(segment.octets.data());
+        if (mcs51_load(acq_board_cpu(board_.get()), segment.address, octets, segment.octets.size()) != 0)
+        {
+            throw std::invalid_argument("the firmware image does not fit the flash");
+        }
+    }
+    wire_up();
+}
+
+void Run::wire_up()
+{
+    emu_wire_t* const txd = acq_board_wire(board_.get(), "TXD");
+    emu_wire_t* const rxd = acq_board_wire(board_.get(), "RXD");
+    emu_wire_init(&host_rxd_, "HOST RXD", true);
+    emu_wire_init(&host_txd_, "HOST TXD", true);
+    for (const auto& [from, to] : config_.cuts_s)
+    {
+        cuts_.push_back({picoseconds(from), picoseconds(to)});
+    }
+    emu_serial_faults_t faults{};
+    faults.baud = config_.baud;
+    faults.bit_error = config_.bit_error;
+    faults.octet_loss = config_.octet_loss;
+    faults.cuts = cuts_.data();
+    faults.cut_count = static_cast<unsigned>(cuts_.size());
+    faults.seed = 2 * config_.seed;
+    bool wired = emu_serial_line_init(&lines_[0], &sched_, txd, &host_rxd_, &faults) == 0;
+    faults.seed = 2 * config_.seed + 1;
+    wired = wired && emu_serial_line_init(&lines_[1], &sched_, &host_txd_, rxd, &faults) == 0;
+    wired = wired && emu_serial_end_init(&end_, &sched_, &host_txd_, &host_rxd_, config_.baud, on_octet, this) == 0;
+    for (unsigned i = 0; wired && config_.trace && i < traced.size(); i++)
+    {
+        taps_[i] = {this, i};
+        wired = emu_wire_watch(acq_board_wire(board_.get(), traced[i]), on_edge, &taps_[i]) == 0;
+    }
+    if (!wired)
+    {
+        throw std::invalid_argument("the serial line could not be made: baud, probability or cut out of range");
+    }
+}
+
+void Run::until(emu_time_t t)
+{
+    constexpr emu_time_t tick = 1'000'000'000; // the host looks at its time-outs each millisecond
+    while (sched_.now < t)
+    {
+        const emu_time_t next = config_.nav ? std::min(t, (sched_.now / tick + 1) * tick) : t;
+        acq_board_run(board_.get(), next);
+        if (config_.nav)
+        {
+            ins_nav_link_tick(&link_, static_cast<uint64_t>(sched_.now / tick));
+        }
+    }
+}
+
+size_t Run::send(const std::string& octets)
+{
+    size_t taken = 0;
+    while (taken < octets.size() && emu_serial_end_send(&end_, static_cast<uint8_t>(octets[taken])))
+    {
+        taken++;
+    }
+    return taken;
+}
+
+void Run::on_sample(void* ctx, unsigned channel, uint16_t code, double, emu_time_t at)
+{
+    Run& self = *static_cast<Run*>(ctx);
+    if (channel == 0)
+    {
+        self.pending_channels_ = 0;
+    }
+    if (channel != self.pending_channels_ || channel > 2)
+    {
+        return; // not the next of X, Y, Z: no scan of this firmware's
+    }
+    self.pending_.at[channel] = at;
+    self.pending_.code[channel] = code;
+    self.pending_channels_++;
+    if (self.pending_channels_ == 3)
+    {
+        self.scans.push_back(self.pending_);
+        self.pending_channels_ = 0;
+    }
+}
+
+void Run::on_edge(void* ctx, bool level, emu_time_t at)
+{
+    const Tap& tap = *static_cast<const Tap*>(ctx);
+    tap.run->edges_.push_back({at, tap.wire, level});
+}
+
+void Run::on_report(void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at)
+{
+    Run& self = *static_cast<Run*>(ctx);
+    for (Report& report : self.reports)
+    {
+        if (report.kind == kind && report.detail == detail && report.text == text)
+        {
+            report.count++;
+            return;
+        }
+    }
+    self.reports.push_back({kind, text, detail, at, 1});
+}
+
+void Run::on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at)
+{
+    Run& self = *static_cast<Run*>(ctx);
+    if (!self.config_.nav)
+    {
+        self.octets_.push_back(static_cast<char>(octet));
+        return;
+    }
+    if (!framing_ok)
+    {
+        return; // a UART hands no octet on without its stop bit; the end counts it
+    }
+    int reply = -1;
+    ins_nav_sample_t sample;
+    const int fresh =
+        ins_nav_link_octet(&self.link_, octet, static_cast<uint64_t>(at / 1'000'000'000), &reply, &sample);
+    if (reply >= 0)
+    {
+        emu_serial_end_send(&self.end_, static_cast<uint8_t>(reply));
+    }
+    if (fresh == 1)
+    {
+        self.navigate(sample, at);
+    }
+}
+
+/// The scan a block came from: the one its sequence number says, else the newest with the same codes. Nothing if there is none: the
+/// block was changed on the way and its sum did not show it.
+std::optional<size_t> Run::origin_of(const ins_nav_sample_t& sample) const
+{
+    const auto same = [&](size_t i) { return std::equal(scans[i].code.begin(), scans[i].code.end(), sample.code); };
+    const size_t numbered = first_scan_ + sample.index;
+    if (started_ && config_.nav->seq != 0 && numbered < scans.size() && same(numbered))
+    {
+        return numbered;
+    }
+    const size_t oldest = std::max(last_scan_, scans.size() > origin_window ? scans.size() - origin_window : 0);
+    for (size_t i = scans.size(); i-- > oldest;)
+    {
+        if (same(i))
+        {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+void Run::navigate(const ins_nav_sample_t& sample, emu_time_t at)
+{
+    const std::optional<size_t> origin = origin_of(sample);
+    corrupt_accepted += origin ? 0 : 1;
+    if (!origin && scans.empty())
+    {
+        return;
+    }
+    const size_t scan = origin.value_or(scans.size() - 1);
+    last_scan_ = scan;
+    const double t = static_cast<double>(scans[scan].at[0]) * 1e-12;
+    if (!started_)
+    {
+        ins_nav_config_t cfg = *config_.nav;
+        if (config_.start_at_truth)
+        {
+            ins_motion_attitude(motion_.get(), t, cfg.q_nb);
+        }
+        ins_nav_solver_init(&solver_, &cfg);
+        started_ = true;
+        first_scan_ = scan;
+    }
+    Scored scored;
+    if (ins_nav_solver_step(&solver_, &sample, &scored.state) < 0)
+    {
+        return;
+    }
+    scored.scan = scan;
+    scored.t_s = t;
+    scored.age_s = static_cast<double>(at) * 1e-12 - t;
+    ins_motion_attitude(motion_.get(), t, scored.q_nb.data());
+    ins_motion_euler(motion_.get(), t, scored.euler.data());
+    for (size_t i = 0; i < 3; i++)
+    {
+        scored.error[i] = wrapped(scored.state.euler_rad[i] - scored.euler[i]);
+    }
+    states_.push_back(scored);
+}
+
+} // namespace libins

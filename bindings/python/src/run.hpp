@@ -1,0 +1,148 @@
+/// \file   run.hpp
+/// \brief  One deterministic run: motion -> gyros -> acquisition board with firmware -> serial line -> receiver and navigator -> score.
+///
+/// The rooms meet here: the board's ADC calls the truth's gyro model, the board's UART is wired to a serial end that feeds the host's
+/// handshake and navigator in virtual time (or hands the octets out, when somebody outside plays the host).
+/// SPDX-License-Identifier: MIT
+#pragma once
+#include "emu/serial.h"
+#include "emu_8051/acq_board.h"
+#include "ins_nav/nav.h"
+#include "ins_truth/gyro.h"
+#include "ins_truth/motion.h"
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace libins
+{
+
+/// X, Y, Z of one scan, each with the end of its own acquisition. The scan's instant is that of X.
+struct Scan
+{
+    std::array<emu_time_t, 3> at{};
+    std::array<uint16_t, 3> code{};
+};
+
+/// A navigation state beside the truth at its own sample's instant.
+struct Scored
+{
+    ins_nav_state_t state{};
+    uint64_t scan = 0;             ///< number of the board's scan it came from
+    double t_s = 0.0;              ///< instant of that scan
+    double age_s = 0.0;            ///< from the scan's instant to the state
+    std::array<double, 4> q_nb{};  ///< truth
+    std::array<double, 3> euler{}; ///< truth: roll, pitch, yaw
+    std::array<double, 3> error{}; ///< estimate - truth, wrapped to +-pi
+};
+
+struct Edge
+{
+    emu_time_t at;
+    unsigned wire; ///< index into Run::traced
+    bool level;
+};
+
+struct Report
+{
+    emu_report_kind_t kind;
+    std::string text;
+    uint32_t detail;
+    emu_time_t first;
+    uint64_t count;
+};
+
+struct Segment
+{
+    uint16_t address;
+    std::string octets;
+};
+
+struct RunConfig
+{
+    uint64_t crystal_hz = 11059200;
+    uint64_t seed = 1;
+    std::vector<Segment> image;
+    double baud = 9600.0; ///< of the host
+    double bit_error = 0.0;
+    double octet_loss = 0.0;
+    std::vector<std::array<double, 2>> cuts_s;
+    std::optional<ins_nav_config_t> nav; ///< nothing: the outside plays the host
+    bool start_at_truth = true;          ///< the navigator gets the truth at its first sample
+    bool trace = false;
+};
+
+class Run
+{
+  public:
+    /// Names of the wires in a trace, by Edge::wire.
+    static constexpr std::array<const char*, 7> traced = {"EOC", "I/O CLOCK", "DATA IN", "DATA OUT", "/CS", "TXD", "RXD"};
+
+    /// Throws std::invalid_argument with the reason.
+    Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const ins_gyro_config_t& gyro);
+    Run(const Run&) = delete;
+    Run& operator=(const Run&) = delete;
+
+    void until(emu_time_t t);
+    /// Octets from the outside; \return how many the transmitter took.
+    size_t send(const std::string& octets);
+
+    emu_time_t now() const { return sched_.now; }
+    const mcs51_t* cpu() const { return acq_board_cpu(board_.get()); }
+    std::vector<Scored> take_states() { return std::exchange(states_, {}); }
+    std::vector<Edge> take_edges() { return std::exchange(edges_, {}); }
+    std::string take_octets() { return std::exchange(octets_, {}); }
+
+    std::vector<Scan> scans;
+    std::vector<Report> reports;
+    uint64_t corrupt_accepted = 0; ///< accepted blocks that no scan of the board's equals
+    ins_nav_counts_t counts() const { return link_.counts; }
+    const emu_serial_end_t& host_end() const { return end_; }
+    std::array<uint64_t, 2> slots_inverted() const { return {lines_[0].slots_inverted, lines_[1].slots_inverted}; }
+    std::array<uint64_t, 2> octets_swallowed() const { return {lines_[0].octets_swallowed, lines_[1].octets_swallowed}; }
+
+  private:
+    struct Tap
+    {
+        Run* run;
+        unsigned wire;
+    };
+    static void on_sample(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at);
+    static void on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at);
+    static void on_edge(void* ctx, bool level, emu_time_t at);
+    static void on_report(void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at);
+    void wire_up();
+    void navigate(const ins_nav_sample_t& sample, emu_time_t at);
+    std::optional<size_t> origin_of(const ins_nav_sample_t& sample) const;
+
+    struct BoardDeleter
+    {
+        void operator()(acq_board_t* board) const { acq_board_destroy(board); }
+    };
+
+    RunConfig config_;
+    std::shared_ptr<ins_motion_t> motion_;
+    ins_gyro_t gyro_{};
+    emu_sched_t sched_{};
+    std::unique_ptr<acq_board_t, BoardDeleter> board_;
+    emu_wire_t host_rxd_{}, host_txd_{};
+    std::array<emu_serial_line_t, 2> lines_{};
+    std::vector<emu_serial_cut_t> cuts_;
+    emu_serial_end_t end_{};
+    ins_nav_link_t link_{};
+    ins_nav_solver_t solver_{};
+    bool started_ = false;
+    size_t first_scan_ = 0; ///< the scan of the navigator's first sample
+    size_t last_scan_ = 0;  ///< the scan of its last
+    Scan pending_{};
+    unsigned pending_channels_ = 0;
+    std::array<Tap, traced.size()> taps_{};
+    std::vector<Scored> states_;
+    std::vector<Edge> edges_;
+    std::string octets_;
+};
+
+} // namespace libins

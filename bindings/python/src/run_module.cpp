@@ -1,0 +1,336 @@
+/// \file   run_module.cpp
+/// \brief  The Python module libins._run: motions, gyros and runs, over the C libraries. SPDX-License-Identifier: MIT
+#include "ins/coning.h"
+#include "run.hpp"
+#include <cmath>
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+#include <stdexcept>
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using libins::Edge;
+using libins::Report;
+using libins::Run;
+using libins::RunConfig;
+using libins::Scan;
+using libins::Scored;
+
+namespace
+{
+
+using Motion = ins_motion_t;
+using Sine = std::array<double, 4>; // offset, amplitude, frequency_hz, phase
+
+template <typename Create> std::shared_ptr<Motion> motion(Create create)
+{
+    std::array<char, 256> why{};
+    Motion* made = create(why.data(), why.size());
+    if (made == nullptr)
+    {
+        throw std::invalid_argument(why.data());
+    }
+    return {made, ins_motion_destroy};
+}
+
+ins_motion_sine_t sine(const Sine& s)
+{
+    return {s[0], s[1], s[2], s[3]};
+}
+
+/// Rows x columns, owned by the array.
+nb::ndarray<nb::numpy, double, nb::ndim<2>> table(size_t rows, size_t columns, std::vector<double>&& values)
+{
+    auto* kept = new std::vector<double>(std::move(values));
+    const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
+    return {kept->data(), {rows, columns}, owner};
+}
+
+constexpr size_t scored_columns = 31;
+
+std::vector<double> scored_row(const Scored& s)
+{
+    std::vector<double> row = {static_cast<double>(s.state.index), static_cast<double>(s.scan), s.t_s, s.age_s};
+    row.insert(row.end(), s.error.begin(), s.error.end());
+    row.insert(row.end(), std::begin(s.state.euler_rad), std::end(s.state.euler_rad));
+    row.insert(row.end(), s.euler.begin(), s.euler.end());
+    row.insert(row.end(), std::begin(s.state.q_nb), std::end(s.state.q_nb));
+    row.insert(row.end(), s.q_nb.begin(), s.q_nb.end());
+    row.insert(row.end(), std::begin(s.state.w_ib_b), std::end(s.state.w_ib_b));
+    for (const uint64_t value : {uint64_t{s.state.seq}, uint64_t{s.state.bridged}, uint64_t{s.state.status}, s.state.used,
+                                 s.state.missed, s.state.counts.accepted, s.state.counts.lost})
+    {
+        row.push_back(static_cast<double>(value));
+    }
+    return row;
+}
+
+nb::list names(std::initializer_list<const char*> columns)
+{
+    nb::list list;
+    for (const char* column : columns)
+    {
+        list.append(column);
+    }
+    return list;
+}
+
+/// The new states: one row each, and each as the octets of an ins_nav_state_t, for a publisher.
+nb::tuple take_states(Run& run)
+{
+    const std::vector<Scored> states = run.take_states();
+    std::vector<double> values;
+    nb::list raw;
+    for (const Scored& state : states)
+    {
+        const std::vector<double> row = scored_row(state);
+        values.insert(values.end(), row.begin(), row.end());
+        raw.append(nb::bytes(&state.state, sizeof state.state));
+    }
+    return nb::make_tuple(table(states.size(), scored_columns, std::move(values)), raw);
+}
+
+nb::ndarray<nb::numpy, int64_t, nb::ndim<2>> take_edges(Run& run)
+{
+    auto* kept = new std::vector<int64_t>();
+    const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<int64_t>*>(p); });
+    const std::vector<Edge> edges = run.take_edges();
+    for (const Edge& edge : edges)
+    {
+        kept->insert(kept->end(), {edge.at, edge.wire, edge.level ? 1 : 0});
+    }
+    return {kept->data(), {edges.size(), 3}, owner};
+}
+
+nb::ndarray<nb::numpy, double, nb::ndim<2>> scans(const Run& run)
+{
+    std::vector<double> values;
+    for (const Scan& scan : run.scans)
+    {
+        for (const emu_time_t at : scan.at)
+        {
+            values.push_back(static_cast<double>(at) * 1e-12);
+        }
+        values.insert(values.end(), scan.code.begin(), scan.code.end());
+    }
+    return table(run.scans.size(), 6, std::move(values));
+}
+
+nb::dict counters(const Run& run)
+{
+    const ins_nav_counts_t counts = run.counts();
+    nb::dict d;
+    d["instructions"] = mcs51_instructions(run.cpu());
+    d["cycles"] = mcs51_cycle(run.cpu());
+    d["interrupts"] = mcs51_interrupts(run.cpu());
+    d["sampled"] = run.scans.size();
+    d["accepted"] = counts.accepted;
+    d["lost"] = counts.lost;
+    d["invalid"] = counts.invalid;
+    d["duplicates"] = counts.duplicates;
+    d["corrupt"] = counts.corrupt;
+    d["timeouts"] = counts.timeouts;
+    d["stray"] = counts.stray;
+    d["corrupt_accepted"] = run.corrupt_accepted;
+    d["framing_errors"] = run.host_end().framing_errors;
+    d["octets_received"] = run.host_end().octets_received;
+    d["octets_sent"] = run.host_end().octets_sent;
+    d["slots_inverted"] = run.slots_inverted()[0] + run.slots_inverted()[1];
+    d["octets_swallowed"] = run.octets_swallowed()[0] + run.octets_swallowed()[1];
+    return d;
+}
+
+ins_nav_config_t nav_config(double period_s, unsigned block_len, bool sequence, const std::string& form, unsigned rate_order,
+                            const std::array<double, 3>& skew_s, const ins_gyro_config_t& gyro)
+{
+    static const std::vector<std::pair<std::string, int>> forms = {
+        {"one", INS_CONING_ONE},          {"hist1", INS_CONING_HIST1},          {"hist2_fit", INS_CONING_HIST2_FIT},
+        {"hist2_opt", INS_CONING_HIST2_OPT}, {"hist3_fit", INS_CONING_HIST3_FIT}, {"hist3_opt", INS_CONING_HIST3_OPT}};
+    ins_nav_config_t cfg;
+    ins_nav_config_default(&cfg);
+    cfg.period_s = period_s;
+    cfg.block_len = static_cast<uint8_t>(block_len);
+    cfg.seq = sequence ? 1 : 0;
+    cfg.rate_order = static_cast<uint8_t>(rate_order);
+    for (const auto& [name, value] : forms)
+    {
+        cfg.form = name == form ? value : cfg.form;
+    }
+    for (unsigned i = 0; i < 3; i++)
+    {
+        cfg.delay_s[i] = skew_s[i];
+        ins_gyro_scale(&gyro, i, 12, 0.0, 5.0, &cfg.lsb_rad_s[i], &cfg.null_code[i]);
+    }
+    return cfg;
+}
+
+} // namespace
+
+NB_MODULE(_run, m)
+{
+    m.doc() = "Deterministic runs of the acquisition board, fed from a known motion and scored against it.";
+    m.attr("STATE_COLUMNS") =
+        names({"index",       "scan",         "t_s",         "age_s",       "error_roll_rad", "error_pitch_rad",
+               "error_yaw_rad", "roll_rad",   "pitch_rad",   "yaw_rad",     "true_roll_rad",  "true_pitch_rad",
+               "true_yaw_rad", "q_w",         "q_x",         "q_y",         "q_z",            "true_q_w",
+               "true_q_x",    "true_q_y",     "true_q_z",    "w_x_rad_s",   "w_y_rad_s",      "w_z_rad_s",
+               "seq",         "bridged",      "status",      "used",        "missed",         "accepted",
+               "lost"});
+    m.attr("SCAN_COLUMNS") = names({"x_s", "y_s", "z_s", "x_code", "y_code", "z_code"});
+    nb::list wires;
+    for (const char* wire : Run::traced)
+    {
+        wires.append(wire);
+    }
+    m.attr("WIRES") = wires;
+
+    nb::class_<Motion>(m, "Motion", "A known rotation as a function of time; see ins_truth/motion.h.")
+        .def("euler",
+             [](const Motion& self, double t)
+             {
+                 std::array<double, 3> rpy{};
+                 ins_motion_euler(&self, t, rpy.data());
+                 return rpy;
+             },
+             "t"_a, "Roll, pitch, yaw [rad] at t [s].")
+        .def("attitude",
+             [](const Motion& self, double t)
+             {
+                 std::array<double, 4> q{};
+                 ins_motion_attitude(&self, t, q.data());
+                 return q;
+             },
+             "t"_a, "q_nb, scalar first, at t [s].")
+        .def("span",
+             [](const Motion& self)
+             {
+                 std::array<double, 2> span{};
+                 ins_motion_span(&self, &span[0], &span[1]);
+                 return span;
+             },
+             "First and last instant the motion is known for [s].");
+    m.def("motion_rate",
+          [](const std::array<double, 3>& w_ib_b, double ramp_s)
+          {
+              const double level[4] = {1.0, 0.0, 0.0, 0.0};
+              return motion([&](char* why, size_t n) { return ins_motion_create_rate(w_ib_b.data(), level, ramp_s, why, n); });
+          },
+          "w_ib_b"_a, "ramp_s"_a);
+    m.def("motion_euler",
+          [](const Sine& yaw, const Sine& pitch, const Sine& roll, double ramp_s)
+          {
+              const ins_motion_sines_t sines = {sine(yaw), sine(pitch), sine(roll)};
+              return motion([&](char* why, size_t n) { return ins_motion_create_euler(&sines, ramp_s, why, n); });
+          },
+          "yaw"_a, "pitch"_a, "roll"_a, "ramp_s"_a);
+    m.def("motion_coning",
+          [](double half_angle, double frequency_hz, double ramp_s)
+          { return motion([&](char* why, size_t n) { return ins_motion_create_coning(half_angle, frequency_hz, ramp_s, why, n); }); },
+          "half_angle"_a, "frequency_hz"_a, "ramp_s"_a);
+    m.def("motion_table",
+          [](const std::vector<double>& t, const std::vector<double>& yaw, const std::vector<double>& pitch,
+             const std::vector<double>& roll, double ramp_s)
+          {
+              if (yaw.size() != t.size() || pitch.size() != t.size() || roll.size() != t.size())
+              {
+                  throw std::invalid_argument("t, yaw, pitch and roll must have the same length");
+              }
+              return motion(
+                  [&](char* why, size_t n)
+                  { return ins_motion_create_table(t.size(), t.data(), yaw.data(), pitch.data(), roll.data(), ramp_s, why, n); });
+          },
+          "t"_a, "yaw"_a, "pitch"_a, "roll"_a, "ramp_s"_a);
+
+    nb::class_<ins_gyro_config_t>(m, "Gyro", "Three rate gyros with amplifiers; see ins_truth/gyro.h.")
+        .def("set",
+             [](ins_gyro_config_t& self, const std::string& key, const std::array<double, 3>& values)
+             {
+                 for (size_t i = 0; i < INS_GYRO_CHANNELS; i++)
+                 {
+                     double ins_gyro_channel_t::*const member = key == "bandwidth_hz"       ? &ins_gyro_channel_t::bandwidth_hz
+                                                                : key == "noise_rad_s_rthz" ? &ins_gyro_channel_t::noise_density
+                                                                : key == "bias_rad_s"       ? &ins_gyro_channel_t::bias
+                                                                : key == "drift_rad_s2"     ? &ins_gyro_channel_t::drift
+                                                                                            : nullptr;
+                     if (member == nullptr)
+                     {
+                         throw std::invalid_argument("a gyro has no " + key);
+                     }
+                     self.channel[i].*member = values[i];
+                 }
+             },
+             "key"_a, "values"_a)
+        .def_rw("seed", &ins_gyro_config_t::seed);
+    m.def("gyro_ideal",
+          []
+          {
+              ins_gyro_config_t config;
+              ins_gyro_default_config(&config);
+              return config;
+          });
+    m.def("gyro_cg_l53",
+          []
+          {
+              ins_gyro_config_t config;
+              ins_gyro_cgl53_config(&config);
+              return config;
+          });
+
+    nb::class_<ins_nav_config_t>(m, "Nav", "Receiver and navigator; see ins_nav/nav.h.");
+    m.def("nav", nav_config, "period_s"_a, "block_len"_a, "sequence"_a, "form"_a, "rate_order"_a, "skew_s"_a, "gyro"_a);
+
+    nb::class_<RunConfig>(m, "RunConfig")
+        .def(nb::init<>())
+        .def_rw("crystal_hz", &RunConfig::crystal_hz)
+        .def_rw("seed", &RunConfig::seed)
+        .def_rw("baud", &RunConfig::baud)
+        .def_rw("bit_error", &RunConfig::bit_error)
+        .def_rw("octet_loss", &RunConfig::octet_loss)
+        .def_rw("cuts_s", &RunConfig::cuts_s)
+        .def_rw("nav", &RunConfig::nav)
+        .def_rw("start_at_truth", &RunConfig::start_at_truth)
+        .def_rw("trace", &RunConfig::trace)
+        .def("add_segment",
+             [](RunConfig& self, uint16_t address, const nb::bytes& octets)
+             { self.image.push_back({address, std::string(octets.c_str(), octets.size())}); },
+             "address"_a, "octets"_a);
+
+    nb::class_<Run>(m, "Run", "See run.hpp.")
+        .def(nb::init<const RunConfig&, std::shared_ptr<Motion>, const ins_gyro_config_t&>(), "config"_a, "motion"_a, "gyro"_a)
+        .def("until", &Run::until, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
+        .def_prop_ro("now_ps", &Run::now)
+        .def("take_states", take_states)
+        .def("take_edges", take_edges)
+        .def("take_octets",
+             [](Run& self)
+             {
+                 const std::string octets = self.take_octets();
+                 return nb::bytes(octets.data(), octets.size());
+             })
+        .def("send", [](Run& self, const nb::bytes& octets) { return self.send(std::string(octets.c_str(), octets.size())); },
+             "octets"_a)
+        .def("scans", scans)
+        .def("counters", counters)
+        .def("iram", [](const Run& self, uint8_t address) { return mcs51_iram(self.cpu(), address); }, "address"_a)
+        .def("reports",
+             [](const Run& self)
+             {
+                 nb::list list;
+                 for (const Report& report : self.reports)
+                 {
+                     nb::dict d;
+                     d["kind"] = report.kind == EMU_GUEST_ERROR ? "guest_error" : "not_modelled";
+                     d["text"] = report.text;
+                     d["detail"] = report.detail;
+                     d["first_s"] = static_cast<double>(report.first) * 1e-12;
+                     d["count"] = report.count;
+                     list.append(d);
+                 }
+                 return list;
+             });
+}
