@@ -26,8 +26,8 @@ def _parser() -> argparse.ArgumentParser:
     r = commands.add_parser(
         "run",
         help="run a scenario on an emulated board",
-        description="Exit codes: 0 all expectations met, 1 one failed, 2 bad usage or scenario, 3 the firmware did something wrong "
-        "(with --strict), 42 the simulated time ran out.",
+        description="Exit codes: 0 all expectations met, 1 one failed, 2 bad usage or scenario, "
+        "3 the firmware did something wrong (with --strict), 42 the simulated time ran out.",
     )
     r.add_argument("scenario", help="a TOML file, or the name of one that comes with the package (default, s3_paper)")
     r.add_argument("--firmware", type=Path, metavar="F.ihx", help="another image than the scenario's")

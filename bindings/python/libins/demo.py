@@ -1,4 +1,4 @@
-"""`./dev demo`: the emulated board at real-time speed on a pty, ins-navd on its other end, DDS to a subscriber in a process of its own.
+"""`./dev demo`: the emulated board on a pty at real-time speed, ins-navd on its other end, DDS to another process.
 
 With --fast the same firmware, board, link and navigator run in one process in virtual time.
 """

@@ -1,4 +1,4 @@
-"""The outer end of a board's UART: a pty, a TCP port on the loopback interface, or a file that takes what the board sends."""
+"""The outer end of a board's UART: a pty, a loopback TCP port, or a file that takes what the board sends."""
 
 import contextlib
 import os

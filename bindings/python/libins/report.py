@@ -57,8 +57,8 @@ def text(summary: dict[str, Any]) -> str:
     if summary["dds"] is not None:
         lines.append(f"dds       {summary['dds']['published']} published")
     lines += [
-        f"{report['kind']}: {report['text']} ({report['detail']:#x}), {report['count']} times, first at {report['first_s']:.6f} s"
-        for report in summary["reports"]
+        f"{r['kind']}: {r['text']} ({r['detail']:#x}), {r['count']} times, first at {r['first_s']:.6f} s"
+        for r in summary["reports"]
     ]
     lines += [f"expected  {failure}" for failure in summary["failed"]]
     if summary["not_judged"]:

@@ -1,4 +1,4 @@
-"""A scenario, run: in virtual time as fast as the machine goes, or paced, with a host inside the run or outside on a serial endpoint."""
+"""A scenario, run: in virtual time or paced, with the host inside the run or outside on a serial endpoint."""
 
 import hashlib
 import json

@@ -1,6 +1,7 @@
-"""Scenario files: what board, which firmware, what motion is fed in, what the line does, who navigates and what must come out.
+"""Scenario files: board, firmware, the motion fed in, what the line does, who navigates and what must come out.
 
-TOML without loops or expressions; logic belongs in pytest. Names carry their unit (rad, s, Hz, V). docs/scenarios.md lists every key.
+TOML without loops or expressions; logic belongs in pytest. Names carry their unit (rad, s, Hz, V).
+docs/scenarios.md lists every key.
 """
 
 import csv
@@ -94,11 +95,11 @@ class Expect:
 class Tables:
     """A scenario file, as written."""
 
+    firmware: str
+    motion: Motion
     schema: int = field(choices=(1,))
     board: str = field(choices=BOARDS)
-    firmware: str
     stop_s: float = field(above=0.0, maximum=1e6)
-    motion: Motion
     clock_hz: int = field(11_059_200, minimum=1_000_000, maximum=33_000_000)
     seed: int = field(1, minimum=0, maximum=2**63 - 1)
     stop_samples: int | None = field(None, minimum=1)
@@ -165,9 +166,8 @@ def _check(document: Document, tables: Tables) -> None:
     end = 0.0
     for i, cut in enumerate(tables.link.cuts_s):
         if len(cut) != 2 or not end <= cut[0] < cut[1]:
-            raise document.refuse(
-                ("link", "cuts_s", str(i)), f"found {cut!r}, but [from, to] with {end} <= from < to is needed"
-            )
+            needed = f"[from, to] with {end} <= from < to"
+            raise document.refuse(("link", "cuts_s", str(i)), f"found {cut!r}, but {needed} is needed")
         end = cut[1]
     for i, expect in enumerate(tables.expect):
         if expect.at_most is None and expect.at_least is None:
@@ -185,7 +185,7 @@ def read_csv(path: Path) -> np.ndarray[Any, Any]:
     if not rows or [name.strip() for name in rows[0]] != columns:
         found = ",".join(rows[0]) if rows else "nothing"
         raise UsageError(f"{path}:1: found {found!r}, but the header must be {','.join(columns)}")
-    values = []
+    values: list[list[float]] = []
     for number, row in enumerate(rows[1:], start=2):
         try:
             numbers = [float(cell) for cell in row]
