@@ -14,7 +14,7 @@ static emu_time_t bits_ps(double bits, double baud)
 
 static void tx_drive(emu_serial_end_t* self, emu_time_t at)
 {
-    const bool one = (self->tx_frame >> self->tx_bit & 1u) != 0;
+    const bool one = ((unsigned)self->tx_frame >> self->tx_bit & 1u) != 0;
     emu_wire_drive(self->tx, self->tx_driver, one ? EMU_STRONG1 : EMU_STRONG0, at);
     emu_sched_at(self->sched, &self->tx_event, self->tx_start + bits_ps(self->tx_bit + 1.0, self->baud));
 }

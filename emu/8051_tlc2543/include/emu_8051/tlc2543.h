@@ -1,6 +1,8 @@
 /// \file   emu_8051/tlc2543.h
 /// \brief  TI TLC2543 12-bit serial ADC, 11 inputs, at its edges (SLAS079F): pipeline of the previous result, 8/12/16 bits, MSB or LSB
 ///         first, unipolar or bipolar, self-test channels, power-down, EOC and conversion time, abort.
+///
+/// The data sheet's facts, and what is chosen where it is silent, are at the top of parts/tlc2543.c.
 /// SPDX-License-Identifier: MIT
 #ifndef EMU_8051_TLC2543_H_INCLUDED
 #define EMU_8051_TLC2543_H_INCLUDED
@@ -12,7 +14,8 @@
 extern "C" {
 #endif
 
-/// A sample was taken: `at` is the end of acquisition (the last falling I/O CLOCK edge). channel 0..10 are inputs, 11..13 self-test.
+/// A sample was taken: `at` is the end of acquisition (the last falling I/O CLOCK edge), `code` straight binary, 12 bits, whatever
+/// the format of the transfer. channel 0..10 are inputs, 11..13 self-test. An abort may still discard it.
 typedef void (*tlc2543_sample_fn)(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at);
 
 typedef struct tlc2543_config_t
@@ -21,8 +24,9 @@ typedef struct tlc2543_config_t
     emu_time_t t_conv;    ///< conversion [ps], 8 us typical, 10 us maximum
     emu_time_t t_eoc;     ///< last falling edge to EOC low, 1.5 us typical, 2.2 us maximum
     emu_time_t t_abort;   ///< a /CS fall within this of the last clock's fall aborts the conversion, 5 us maximum
+    emu_time_t t_enable;  ///< /CS low to DATA OUT driven, 0.7 us typical, 1.3 us maximum
     double offset_lsb, gain_lsb; ///< static errors, 0 by default; gain_lsb at full scale
-    emu_analog_t analog;
+    emu_analog_t analog; ///< volts NULL: all inputs at REF-
     tlc2543_sample_fn sampled; ///< may be NULL
     void* sampled_ctx;
     emu_report_t report;

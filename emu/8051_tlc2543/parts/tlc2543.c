@@ -1,0 +1,316 @@
+/// TI TLC2543 at its edges. Source: SLAS079F (November 2001); where it is silent or unseen, the choice is marked (c).
+///
+/// | input byte  | D7-D4 address, D3-D2 length (01 = 8, x0 = 12, 11 = 16), D1 LSB first, D0 bipolar; first bit is D7, on rising edges |
+/// | address     | 0..10 inputs; 11 (REF+ + REF-)/2, 12 REF-, 13 REF+; 14 power-down; 15 none: reported, converts to 0 (c)          |
+/// | length      | that of the current transfer, and of the word its conversion gives; D1, D0: of that word only                   |
+/// | word        | 8 bits: the upper 8; 16 bits: 4 zeros below; zeros after the last bit (c)                                       |
+/// | bipolar     | two's complement: the upper bit inverted (c)                                                                    |
+/// | DATA OUT    | Z with /CS high; first bit of the previous result t_enable after /CS falls, next bit on each falling edge, no    |
+/// |             | further delay (150 ns at most: less than any 8051 can see) (c); low during a conversion with /CS low             |
+/// | sampling    | ends at the last falling edge: the volts of that instant                                                        |
+/// | conversion  | EOC low t_eoc after the last falling edge, high t_conv later; clocks meanwhile are ignored (c) and reported      |
+/// | abort       | /CS falling within t_abort of the last falling edge: EOC high at once, the previous result stays (c)             |
+/// | early /CS   | rising inside a transfer: reported; nothing is latched, the previous result stays (c)                           |
+/// | power-down  | no conversion, EOC stays high, the result stays (c); the next valid address converts as usual                   |
+/// | power-up    | the first word is random in silicon, A5Ah here (c)                                                              |
+/// | transfer    | code k is centred on k (REF+ - REF-) / 4096, clamped to 0 and 4095                                              |
+/// SPDX-License-Identifier: MIT
+#include "emu_8051/tlc2543.h"
+#include <stdlib.h>
+
+#define CODES        4096
+#define POWER_UP     0xA5Au
+#define INPUT_BITS   8u
+#define T_SETUP      1425000 ///< /CS low to the first clock [ps], SLAS079F t_su(CS)
+#define LENGTH       0x0Cu
+#define LENGTH_8     0x04u
+#define LENGTH_16    0x0Cu
+#define LSB_FIRST    0x02u
+#define BIPOLAR      0x01u
+#define ADDRESS_HALF 11u ///< self-test: half way, then REF-, then REF+
+#define ADDRESS_LOW  12u
+#define ADDRESS_HIGH 13u
+#define ADDRESS_DOWN 14u
+
+struct tlc2543_t
+{
+    tlc2543_config_t config;
+    emu_sched_t* sched;
+    emu_wire_t *eoc, *data_in, *data_out;
+    int eoc_driver, out_driver;
+    emu_event_t eoc_event, enable_event;
+    bool selected, enabled, converting, eoc_low;
+    unsigned rises, falls; ///< of this transfer
+    uint8_t input;
+    uint16_t word;    ///< the previous result as it goes out, first bit uppermost
+    uint16_t pending; ///< the one in conversion
+    emu_time_t cs_fall, last_fall;
+};
+
+void tlc2543_default_config(tlc2543_config_t* config)
+{
+    *config = (tlc2543_config_t){
+        .ref_plus_v = 5.0,
+        .t_conv = 8 * EMU_PS_PER_US,
+        .t_eoc = 3 * EMU_PS_PER_US / 2,
+        .t_abort = 5 * EMU_PS_PER_US,
+        .t_enable = 7 * EMU_PS_PER_US / 10,
+    };
+}
+
+static void report(const tlc2543_t* self, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at)
+{
+    if (self->config.report.put != NULL)
+    {
+        self->config.report.put(self->config.report.ctx, kind, text, detail, at);
+    }
+}
+
+static unsigned length(uint8_t input)
+{
+    const unsigned bits = input & LENGTH;
+    return bits == LENGTH_8 ? 8 : bits == LENGTH_16 ? 16 : 12;
+}
+
+static unsigned reversed(unsigned x)
+{
+    unsigned y = 0;
+    for (unsigned i = 0; i < 16; i++)
+    {
+        y |= (x >> i & 1u) << (15 - i);
+    }
+    return y;
+}
+
+static uint16_t format(uint16_t code, uint8_t input)
+{
+    const unsigned binary = (input & BIPOLAR) != 0 ? code ^ 0x800u : code;
+    const unsigned bits = length(input);
+    const unsigned value = bits == 8 ? binary >> 4 : bits == 16 ? binary << 4 : binary;
+    const unsigned word = (input & LSB_FIRST) != 0 ? reversed(value) : value << (16 - bits);
+    return (uint16_t)word;
+}
+
+static void drive_out(tlc2543_t* self, emu_time_t at)
+{
+    if (self->enabled)
+    {
+        const bool one =
+            !self->converting && self->falls < 16 && ((unsigned)self->word >> (15 - self->falls) & 1u) != 0;
+        emu_wire_drive(self->data_out, self->out_driver, one ? EMU_STRONG1 : EMU_STRONG0, at);
+    }
+}
+
+static void drive_eoc(tlc2543_t* self, bool low, emu_time_t at)
+{
+    self->eoc_low = low;
+    emu_wire_drive(self->eoc, self->eoc_driver, low ? EMU_STRONG0 : EMU_STRONG1, at);
+}
+
+static double input_volts(const tlc2543_t* self, unsigned address, emu_time_t at)
+{
+    const double low = self->config.ref_minus_v, high = self->config.ref_plus_v;
+    switch (address)
+    {
+    case ADDRESS_HALF:
+        return low + (high - low) / 2;
+    case ADDRESS_LOW:
+        return low;
+    case ADDRESS_HIGH:
+        return high;
+    default:
+        return self->config.analog.volts != NULL ? self->config.analog.volts(self->config.analog.ctx, address, at)
+                                                 : low;
+    }
+}
+
+static uint16_t convert(const tlc2543_t* self, double volts)
+{
+    const tlc2543_config_t* const c = &self->config;
+    const double x = (volts - c->ref_minus_v) / (c->ref_plus_v - c->ref_minus_v) * CODES;
+    const double centred = x + c->offset_lsb + c->gain_lsb * x / CODES + 0.5;
+    if (!(centred > 0.0))
+    {
+        return 0;
+    }
+    return centred < CODES ? (uint16_t)centred : CODES - 1;
+}
+
+static void next_transfer(tlc2543_t* self)
+{
+    self->rises = self->falls = 0;
+    self->input = 0;
+}
+
+/// The last falling edge of a transfer.
+static void sample(tlc2543_t* self, emu_time_t at)
+{
+    const unsigned address = (unsigned)self->input >> 4;
+    if (address == ADDRESS_DOWN)
+    {
+        next_transfer(self);
+        drive_out(self, at);
+        return;
+    }
+    uint16_t code = 0;
+    if (address <= ADDRESS_HIGH)
+    {
+        const double volts = input_volts(self, address, at);
+        if (volts != volts)
+        {
+            report(self, EMU_NOT_MODELLED, "TLC2543: the volts of this channel are not a number; converted as 0",
+                   address, at);
+        }
+        code = convert(self, volts);
+        if (self->config.sampled != NULL)
+        {
+            self->config.sampled(self->config.sampled_ctx, address, code, volts, at);
+        }
+    }
+    else
+    {
+        report(self, EMU_GUEST_ERROR, "TLC2543: address 1111 selects nothing; use 0000 to 1110", self->input, at);
+    }
+    self->pending = format(code, self->input);
+    self->converting = true;
+    self->last_fall = at;
+    drive_out(self, at);
+    emu_sched_at(self->sched, &self->eoc_event, at + self->config.t_eoc);
+}
+
+static void eoc_edge(void* ctx, emu_time_t at)
+{
+    tlc2543_t* const self = ctx;
+    if (!self->eoc_low)
+    {
+        drive_eoc(self, true, at);
+        emu_sched_at(self->sched, &self->eoc_event, at + self->config.t_conv);
+        return;
+    }
+    self->converting = false;
+    self->word = self->pending;
+    next_transfer(self);
+    drive_out(self, at);
+    drive_eoc(self, false, at);
+}
+
+static void clock_edge(void* ctx, bool level, emu_time_t at)
+{
+    tlc2543_t* const self = ctx;
+    if (!self->selected)
+    {
+        return;
+    }
+    if (self->converting)
+    {
+        if (level)
+        {
+            report(self, EMU_GUEST_ERROR, "TLC2543: I/O CLOCK during a conversion is ignored; wait for EOC high", 0,
+                   at);
+        }
+        return;
+    }
+    if (level)
+    {
+        if (self->rises == 0 && at - self->cs_fall < T_SETUP)
+        {
+            report(self, EMU_GUEST_ERROR,
+                   "TLC2543: first I/O CLOCK sooner than 1.425 us after /CS low; wait longer [ns]",
+                   (uint32_t)((at - self->cs_fall) / 1000), at);
+        }
+        if (self->rises < INPUT_BITS)
+        {
+            self->input = (uint8_t)((unsigned)self->input << 1 | self->data_in->level);
+        }
+        self->rises++;
+    }
+    else if (self->falls < self->rises)
+    {
+        self->falls++;
+        if (self->falls >= INPUT_BITS && self->falls == length(self->input))
+        {
+            sample(self, at);
+        }
+        else
+        {
+            drive_out(self, at);
+        }
+    }
+}
+
+static void enable(void* ctx, emu_time_t at)
+{
+    tlc2543_t* const self = ctx;
+    self->enabled = true;
+    drive_out(self, at);
+}
+
+static void cs_edge(void* ctx, bool level, emu_time_t at)
+{
+    tlc2543_t* const self = ctx;
+    self->selected = !level;
+    if (level)
+    {
+        if (self->rises > 0 && !self->converting)
+        {
+            report(self, EMU_GUEST_ERROR,
+                   "TLC2543: /CS rose inside a transfer, nothing was converted; give all 8, 12 or 16 clocks [given]",
+                   self->falls, at);
+        }
+        self->enabled = false;
+        emu_sched_cancel(self->sched, &self->enable_event);
+        emu_wire_drive(self->data_out, self->out_driver, EMU_Z, at);
+        return;
+    }
+    if (self->converting && at - self->last_fall <= self->config.t_abort)
+    {
+        self->converting = false;
+        emu_sched_cancel(self->sched, &self->eoc_event);
+        drive_eoc(self, false, at);
+    }
+    self->cs_fall = at;
+    next_transfer(self);
+    emu_sched_at(self->sched, &self->enable_event, at + self->config.t_enable);
+}
+
+tlc2543_t* tlc2543_create(const tlc2543_config_t* config, emu_sched_t* sched, emu_wire_t* eoc, emu_wire_t* io_clock,
+                          emu_wire_t* data_in, emu_wire_t* data_out, emu_wire_t* cs_n)
+{
+    if (!(config->ref_plus_v > config->ref_minus_v))
+    {
+        return NULL;
+    }
+    tlc2543_t* const self = calloc(1, sizeof *self);
+    if (self == NULL)
+    {
+        return NULL;
+    }
+    self->config = *config;
+    self->sched = sched;
+    self->eoc = eoc;
+    self->data_in = data_in;
+    self->data_out = data_out;
+    self->eoc_event = (emu_event_t){.fire = eoc_edge, .ctx = self};
+    self->enable_event = (emu_event_t){.fire = enable, .ctx = self};
+    self->word = (uint16_t)(POWER_UP << 4);
+    self->eoc_driver = emu_wire_add_driver(eoc);
+    self->out_driver = emu_wire_add_driver(data_out);
+    if (self->eoc_driver < 0 || self->out_driver < 0 || emu_wire_watch(io_clock, clock_edge, self) != 0 ||
+        emu_wire_watch(cs_n, cs_edge, self) != 0)
+    {
+        free(self);
+        return NULL;
+    }
+    drive_eoc(self, false, sched->now);
+    return self;
+}
+
+void tlc2543_destroy(tlc2543_t* self)
+{
+    if (self != NULL)
+    {
+        emu_sched_cancel(self->sched, &self->eoc_event);
+        emu_sched_cancel(self->sched, &self->enable_event);
+        free(self);
+    }
+}
