@@ -24,67 +24,67 @@ extern "C"
 #define INS_DDS_SOURCE_MAX 63  ///< octets of a source id
 #define INS_DDS_DOMAIN_MAX 230 ///< DDS security of Cyclone 0.10 accepts no higher one
 
-    enum
-    {
-        INS_DDS_OK = 0,
-        INS_DDS_E_ARGUMENT = -1, ///< bad configuration or argument
-        INS_DDS_E_DOMAIN = -2,   ///< the process already has this domain; INS_DDS_JOIN takes part in it
-        INS_DDS_E_NETWORK = -3,  ///< no usable network interface
-        INS_DDS_E_DDS = -4       ///< refused by Cyclone DDS
-    };
+enum
+{
+    INS_DDS_OK = 0,
+    INS_DDS_E_ARGUMENT = -1, ///< bad configuration or argument
+    INS_DDS_E_DOMAIN = -2,   ///< the process already has this domain; INS_DDS_JOIN takes part in it
+    INS_DDS_E_NETWORK = -3,  ///< no usable network interface
+    INS_DDS_E_DDS = -4       ///< refused by Cyclone DDS
+};
 
-    /// Where the domain's configuration comes from.
-    enum
-    {
-        INS_DDS_LOOPBACK = 0,    ///< built in: interface lo, no multicast
-        INS_DDS_XML = 1,         ///< the text in cfg.xml
-        INS_DDS_ENVIRONMENT = 2, ///< the environment variable CYCLONEDDS_URI, which must be set
-        INS_DDS_JOIN = 3         ///< the process already has the domain; it is left alone on close
-    };
+/// Where the domain's configuration comes from.
+enum
+{
+    INS_DDS_LOOPBACK = 0,    ///< built in: interface lo, no multicast
+    INS_DDS_XML = 1,         ///< the text in cfg.xml
+    INS_DDS_ENVIRONMENT = 2, ///< the environment variable CYCLONEDDS_URI, which must be set
+    INS_DDS_JOIN = 3         ///< the process already has the domain; it is left alone on close
+};
 
-    typedef struct ins_dds_config_t
-    {
-        uint32_t domain;       ///< 0..INS_DDS_DOMAIN_MAX
-        int network;           ///< INS_DDS_LOOPBACK ...
-        const char* xml;       ///< with INS_DDS_XML: a <CycloneDDS> document (text, not a file name)
-        const char* topic;     ///< topic name
-        const char* partition; ///< NULL = the default partition
-        int publishes;         ///< 1: there is a writer
-        int subscribes;        ///< 1: there is a reader
-        double deadline_s;     ///< writer: longest time between two samples that it promises; 0 = none
-        double lease_s;        ///< writer: it counts as gone after this time without a sign of life
-        uint32_t history;      ///< samples kept per source, writer and reader
-        /// Lines of Cyclone's log, which is one for the process: the handle opened last receives it, until it is closed. NULL: they are
-        /// dropped (those of a failed open are in the error text).
-        void (*log)(void* context, const char* line);
-        void* log_context;
-    } ins_dds_config_t;
+typedef struct ins_dds_config_t
+{
+    uint32_t domain;       ///< 0..INS_DDS_DOMAIN_MAX
+    int network;           ///< INS_DDS_LOOPBACK ...
+    const char* xml;       ///< with INS_DDS_XML: a <CycloneDDS> document (text, not a file name)
+    const char* topic;     ///< topic name
+    const char* partition; ///< NULL = the default partition
+    int publishes;         ///< 1: there is a writer
+    int subscribes;        ///< 1: there is a reader
+    double deadline_s;     ///< writer: longest time between two samples that it promises; 0 = none
+    double lease_s;        ///< writer: it counts as gone after this time without a sign of life
+    uint32_t history;      ///< samples kept per source, writer and reader
+    /// Receives the lines of Cyclone's log, which is one for the process: that of the handle opened last, until it is closed. Called
+    /// from any thread. NULL: they go to stderr, but for those of an open that fails, which are in the error text.
+    void (*log)(void* context, const char* line);
+    void* log_context;
+} ins_dds_config_t;
 
-    typedef struct ins_dds_sample_t
-    {
-        char source[INS_DDS_SOURCE_MAX + 1];
-        int64_t published_ns; ///< publisher's clock at publication [ns since 1970]
-        int gone;             ///< 1: the last writer of this source left or fell silent; only source is valid
-        ins_nav_state_t state;
-    } ins_dds_sample_t;
+typedef struct ins_dds_sample_t
+{
+    char source[INS_DDS_SOURCE_MAX + 1];
+    int64_t published_ns; ///< publisher's clock at publication [ns since 1970]
+    int gone;             ///< 1: the last writer of this source left or fell silent; only source is valid
+    ins_nav_state_t state;
+} ins_dds_sample_t;
 
-    typedef struct ins_dds_t ins_dds_t;
+typedef struct ins_dds_t ins_dds_t;
 
-    /// Domain 0, loopback, INS_DDS_TOPIC, no partition, publishes, deadline 1 s, lease 1 s, history 16.
-    INS_API void ins_dds_config_default(ins_dds_config_t* cfg);
-    /// \return INS_DDS_OK, or an error, and then *self is NULL and nothing is left open.
-    INS_API int ins_dds_open(const ins_dds_config_t* cfg, ins_dds_t** self);
-    /// \param[in] source id of the publishing unit, 1..INS_DDS_SOURCE_MAX octets: the key of the topic.
-    INS_API int ins_dds_publish(ins_dds_t* self, const ins_nav_state_t* state, const char* source,
-                                int64_t published_ns);
-    /// Wait until something is there, at most timeout_s (0 = look, do not wait). \return samples written to out, 0 = timed out; or an error.
-    INS_API int ins_dds_take(ins_dds_t* self, double timeout_s, ins_dds_sample_t* out, int max);
-    /// Readers matched with the writer plus writers matched with the reader; negative on error.
-    INS_API int ins_dds_matched(ins_dds_t* self);
-    /// NULL is allowed.
-    INS_API void ins_dds_close(ins_dds_t* self);
-    /// What the last call of this thread that failed had to say, with a remedy.
-    INS_API const char* ins_dds_error_text(void);
+/// Domain 0, loopback, INS_DDS_TOPIC, no partition, publishes, deadline 1 s, lease 1 s, history 16.
+INS_API void ins_dds_config_default(ins_dds_config_t* cfg);
+/// \return INS_DDS_OK, or an error, and then *self is NULL and nothing is left open.
+INS_API int ins_dds_open(const ins_dds_config_t* cfg, ins_dds_t** self);
+/// \param[in] source id of the publishing unit, 1..INS_DDS_SOURCE_MAX octets: the key of the topic.
+INS_API int ins_dds_publish(ins_dds_t* self, const ins_nav_state_t* state, const char* source,
+                            int64_t published_ns);
+/// Wait until something is there, at most timeout_s (0 = look, do not wait). \return samples written to out, 0 = timed out; or an error.
+INS_API int ins_dds_take(ins_dds_t* self, double timeout_s, ins_dds_sample_t* out, int max);
+/// Readers matched with the writer plus writers matched with the reader; negative on error.
+INS_API int ins_dds_matched(ins_dds_t* self);
+/// NULL is allowed.
+INS_API void ins_dds_close(ins_dds_t* self);
+/// What the last call of this thread that failed had to say, with a remedy.
+INS_API const char* ins_dds_error_text(void);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,31 @@
+/// \file   options.h
+/// \brief  The command line of ins-navd.
+/// SPDX-License-Identifier: MIT
+#ifndef NAVD_OPTIONS_H_INCLUDED
+#define NAVD_OPTIONS_H_INCLUDED
+#include "ins_nav/nav.h"
+
+typedef struct options_t
+{
+    ins_nav_config_t nav;
+    const char* device;
+    long baud;
+    int wait; ///< a device that is missing at the start is waited for
+    uint32_t queue;
+    const char* json; ///< file, "-" = standard output, NULL = none
+    int dds;          ///< 1: publish
+    uint32_t domain;
+    const char* dds_config; ///< XML file, NULL = loopback
+    int dds_environment;    ///< 1: configuration from CYCLONEDDS_URI
+    const char* topic;      ///< NULL = the default
+    const char* partition;
+    const char* source;
+    uint64_t limit;   ///< states, 0 = none
+    double timeout_s; ///< 0 = none
+    int quiet;
+} options_t;
+
+/// \return -1 to go on, else the exit code: 0 after --help or --version, 2 after a message about what is wrong.
+int options_parse(int argc, char** argv, options_t* options);
+
+#endif // NAVD_OPTIONS_H_INCLUDED

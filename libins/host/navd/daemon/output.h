@@ -1,0 +1,39 @@
+/// \file   output.h
+/// \brief  Where states go: JSON lines into a file or pipe, and DDS. Events of the daemon go to standard error as JSON lines.
+/// SPDX-License-Identifier: MIT
+#ifndef NAVD_OUTPUT_H_INCLUDED
+#define NAVD_OUTPUT_H_INCLUDED
+#include "options.h"
+#include <stdatomic.h>
+
+typedef struct publisher_t publisher_t;
+
+/// \return NULL with the reason in error.
+publisher_t* publisher_open(const options_t* options, char* error, size_t size);
+/// \return 1 published, 0 not.
+int publisher_put(publisher_t* self, const ins_nav_state_t* state);
+/// NULL is allowed.
+void publisher_close(publisher_t* self);
+
+typedef struct output_t
+{
+    int fd; ///< -1 = no JSON
+    const char* name;
+    publisher_t* publisher; ///< NULL = no DDS
+    uint64_t published;
+    uint64_t unpublished;
+    uint64_t unwritten; ///< lines given up because the reader did not read when the daemon had to stop
+} output_t;
+
+/// \return 0; -1 with the reason in error.
+int output_open(output_t* self, const options_t* options, char* error, size_t size);
+/// Waits for a slow reader of the JSON lines, until *stop. \return 0; -1 with the reason in error: no further line can be written.
+int output_state(output_t* self, const ins_nav_state_t* state, const atomic_int* stop, char* error, size_t size);
+void output_close(output_t* self);
+
+/// One line {"event":"NAME", ...} on standard error. The format's rest begins after the name, such as ",\"count\":%d".
+void event(const options_t* options, const char* name, const char* format, ...);
+/// text as the inside of a JSON string, cut to fit.
+const char* quoted(const char* text, char* buffer, size_t size);
+
+#endif // NAVD_OUTPUT_H_INCLUDED

@@ -1,0 +1,13 @@
+/// \file   port.h
+/// \brief  The line to the board: a serial device or pty (termios, 8N1, raw), or a TCP connection.
+/// SPDX-License-Identifier: MIT
+#ifndef NAVD_PORT_H_INCLUDED
+#define NAVD_PORT_H_INCLUDED
+#include <stddef.h>
+
+/// 1 if this system has the rate.
+int port_baud_known(long baud);
+/// \param[in] device a path, or tcp:HOST:PORT (then baud is not used). \return a non-blocking descriptor; -1 with the reason in error.
+int port_open(const char* device, long baud, char* error, size_t size);
+
+#endif // NAVD_PORT_H_INCLUDED

@@ -1,0 +1,25 @@
+/// \file   publish_none.c
+/// \brief  In place of publish_dds.c where the build has no DDS (the ARM daemon).
+/// SPDX-License-Identifier: MIT
+#include "output.h"
+#include <stdio.h>
+
+publisher_t* publisher_open(const options_t* options, char* error, size_t size)
+{
+    (void)options;
+    (void)snprintf(error, size,
+                   "this ins-navd was built without DDS: leave out --dds, or build it with INS_BUILD_DDS=ON");
+    return NULL;
+}
+
+int publisher_put(publisher_t* self, const ins_nav_state_t* state)
+{
+    (void)self;
+    (void)state;
+    return 0;
+}
+
+void publisher_close(publisher_t* self)
+{
+    (void)self;
+}
