@@ -1,5 +1,6 @@
 // Motions: rate is the derivative of attitude, increments are the integral of rate, ramps are C2, bad input is refused
-// by name. SPDX-License-Identifier: MIT
+// by name.
+// SPDX-License-Identifier: MIT
 #include "ins_truth/elementary.h"
 #include "ins_truth/motion.h"
 #include "near.hpp"

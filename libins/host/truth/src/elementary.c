@@ -38,7 +38,7 @@ static double cosine_kernel(double y)
     return p;
 }
 
-void ins_sincos(double x, double* sine, double* cosine)
+void ins_truth_sincos(double x, double* sine, double* cosine)
 {
     const double n = floor(x * (2.0 / INS_TRUTH_PI) + 0.5);
     const double y = ((x - n * half_pi_1) - n * half_pi_2) - n * half_pi_3;
@@ -64,7 +64,7 @@ static double arc_tangent(double t)
     return t > tan_eighth_pi ? INS_TRUTH_PI / 4.0 + z * p : z * p;
 }
 
-double ins_atan2(double y, double x)
+double ins_truth_atan2(double y, double x)
 {
     const double ay = fabs(y);
     const double ax = fabs(x);
@@ -77,7 +77,7 @@ double ins_atan2(double y, double x)
     return y < 0.0 ? -angle : angle;
 }
 
-double ins_log(double x)
+double ins_truth_log(double x)
 {
     if (!(x >= DBL_MIN && x <= DBL_MAX))
     {

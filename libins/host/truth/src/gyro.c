@@ -146,8 +146,8 @@ static double normal(uint64_t seed, unsigned channel, int64_t cell)
     const uint64_t b = mix(a + golden);
     double s;
     double c;
-    ins_sincos(2.0 * INS_TRUTH_PI * unit(b), &s, &c);
-    return sqrt(-2.0 * ins_log(unit(a))) * c;
+    ins_truth_sincos(2.0 * INS_TRUTH_PI * unit(b), &s, &c);
+    return sqrt(-2.0 * ins_truth_log(unit(a))) * c;
 }
 
 static double noise(const ins_gyro_t* self, unsigned channel, int64_t t_ps)

@@ -54,7 +54,7 @@ static void angles_at(const ins_motion_t* self, double t, double angle[3], doubl
             const double w = 2.0 * INS_TRUTH_PI * p->frequency_hz;
             double s;
             double c;
-            ins_sincos(w * t + p->phase, &s, &c);
+            ins_truth_sincos(w * t + p->phase, &s, &c);
             rest[i] = p->offset;
             angle[i] = p->amplitude * s;
             speed[i] = p->amplitude * w * c;
@@ -94,7 +94,7 @@ static void turn_attitude(const ins_motion_turn_t* turn, double elapsed_s, doubl
     const double w = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     double s;
     double c;
-    ins_sincos(0.5 * w * elapsed_s, &s, &c);
+    ins_truth_sincos(0.5 * w * elapsed_s, &s, &c);
     const double k = w > 0.0 ? s / w : 0.0;
     const double dq[4] = {c, k * v[0], k * v[1], k * v[2]};
     quat_product(turn->q_nb0, dq, q_nb);
@@ -106,8 +106,8 @@ static void coning_attitude(const ins_motion_coning_t* coning, double amplitude,
     double c;
     double sw;
     double cw;
-    ins_sincos(0.5 * coning->half_angle * amplitude, &s, &c);
-    ins_sincos(2.0 * INS_TRUTH_PI * coning->frequency_hz * t, &sw, &cw);
+    ins_truth_sincos(0.5 * coning->half_angle * amplitude, &s, &c);
+    ins_truth_sincos(2.0 * INS_TRUTH_PI * coning->frequency_hz * t, &sw, &cw);
     q_nb[0] = c;
     q_nb[1] = 0.0;
     q_nb[2] = s * cw;
@@ -120,7 +120,7 @@ static void euler_attitude(const double ypr[3], double q_nb[4])
     double c[3];
     for (int i = 0; i < 3; i++)
     {
-        ins_sincos(0.5 * ypr[i], &s[i], &c[i]);
+        ins_truth_sincos(0.5 * ypr[i], &s[i], &c[i]);
     }
     q_nb[0] = c[0] * c[1] * c[2] + s[0] * s[1] * s[2];
     q_nb[1] = c[0] * c[1] * s[2] - s[0] * s[1] * c[2];
@@ -162,9 +162,9 @@ void ins_motion_euler(const ins_motion_t* self, double t, double rpy[3])
     const double c_zx = 2.0 * (q[1] * q[3] - q[0] * q[2]);
     const double c_zy = 2.0 * (q[2] * q[3] + q[0] * q[1]);
     const double c_zz = 1.0 - 2.0 * (q[1] * q[1] + q[2] * q[2]);
-    rpy[0] = ins_atan2(c_zy, c_zz);
-    rpy[1] = ins_atan2(-c_zx, sqrt(c_xx * c_xx + c_yx * c_yx));
-    rpy[2] = ins_atan2(c_yx, c_xx);
+    rpy[0] = ins_truth_atan2(c_zy, c_zz);
+    rpy[1] = ins_truth_atan2(-c_zx, sqrt(c_xx * c_xx + c_yx * c_yx));
+    rpy[2] = ins_truth_atan2(c_yx, c_xx);
 }
 
 /// Rotation by a about u = (0, cos wt, sin wt): w_ib_b = a' u + sin a u' - (1 - cos a) u x u'.
@@ -177,8 +177,8 @@ static void coning_rate(const ins_motion_coning_t* coning, ramp_t ramp, double t
     double c;
     double sw;
     double cw;
-    ins_sincos(a_half, &s, &c);
-    ins_sincos(w * t, &sw, &cw);
+    ins_truth_sincos(a_half, &s, &c);
+    ins_truth_sincos(w * t, &sw, &cw);
     w_ib_b[0] = -2.0 * w * s * s;
     w_ib_b[1] = a_speed * cw - 2.0 * w * s * c * sw;
     w_ib_b[2] = a_speed * sw + 2.0 * w * s * c * cw;
@@ -190,8 +190,8 @@ static void euler_rate(const double ypr[3], const double speed[3], double w_ib_b
     double cp;
     double sr;
     double cr;
-    ins_sincos(ypr[1], &sp, &cp);
-    ins_sincos(ypr[2], &sr, &cr);
+    ins_truth_sincos(ypr[1], &sp, &cp);
+    ins_truth_sincos(ypr[2], &sr, &cr);
     w_ib_b[0] = speed[2] - speed[0] * sp;
     w_ib_b[1] = speed[1] * cr + speed[0] * sr * cp;
     w_ib_b[2] = speed[0] * cr * cp - speed[1] * sr;

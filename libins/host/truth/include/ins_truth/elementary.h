@@ -14,12 +14,12 @@ extern "C" {
 #define INS_TRUTH_PI 3.14159265358979323846
 
 /// \param[in] x [rad]. Absolute error at most 1e-15 for |x| <= 1e6, then about one ulp of x. NaN, infinity: NaN.
-INS_TRUTH_API void ins_sincos(double x, double* sine, double* cosine);
+INS_TRUTH_API void ins_truth_sincos(double x, double* sine, double* cosine);
 /// In [-pi, pi], error at most 1e-15; atan2(0, 0) = 0. x and y finite.
-INS_TRUTH_API double ins_atan2(double y, double x);
+INS_TRUTH_API double ins_truth_atan2(double y, double x);
 /// Natural logarithm of a positive normal number, error at most 1e-15 of max(1, |log x|). Zero, negative, infinity,
 /// NaN: NaN.
-INS_TRUTH_API double ins_log(double x);
+INS_TRUTH_API double ins_truth_log(double x);
 
 #ifdef __cplusplus
 }
