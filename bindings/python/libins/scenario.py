@@ -175,7 +175,7 @@ def _check(document: Document, tables: Tables) -> None:
 
 
 def read_csv(path: Path) -> np.ndarray[Any, Any]:
-    """A motion file with the columns t_s, yaw_rad, pitch_rad, roll_rad. Shape (n, 4). Raises UsageError with the line."""
+    """A motion file: t_s, yaw_rad, pitch_rad, roll_rad. Shape (n, 4). Raises UsageError with the line."""
     columns = ["t_s", "yaw_rad", "pitch_rad", "roll_rad"]
     try:
         with path.open(newline="", encoding="utf-8") as file:

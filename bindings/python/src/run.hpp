@@ -79,7 +79,8 @@ class Run
 {
   public:
     /// Names of the wires in a trace, by Edge::wire.
-    static constexpr std::array<const char*, 7> traced = {"EOC", "I/O CLOCK", "DATA IN", "DATA OUT", "/CS", "TXD", "RXD"};
+    static constexpr std::array<const char*, 7> traced = {"EOC", "I/O CLOCK", "DATA IN", "DATA OUT",
+                                                          "/CS", "TXD",       "RXD"};
 
     /// Throws std::invalid_argument with the reason.
     Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const ins_gyro_config_t& gyro);
@@ -102,7 +103,10 @@ class Run
     ins_nav_counts_t counts() const { return link_.counts; }
     const emu_serial_end_t& host_end() const { return end_; }
     std::array<uint64_t, 2> slots_inverted() const { return {lines_[0].slots_inverted, lines_[1].slots_inverted}; }
-    std::array<uint64_t, 2> octets_swallowed() const { return {lines_[0].octets_swallowed, lines_[1].octets_swallowed}; }
+    std::array<uint64_t, 2> octets_swallowed() const
+    {
+        return {lines_[0].octets_swallowed, lines_[1].octets_swallowed};
+    }
 
   private:
     struct Tap

@@ -2,12 +2,11 @@
 /// \brief  The Python module libins._run: motions, gyros and runs, over the C libraries. SPDX-License-Identifier: MIT
 #include "ins/coning.h"
 #include "run.hpp"
-#include <cmath>
+#include <memory>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 #include <stdexcept>
@@ -24,18 +23,22 @@ using libins::Scored;
 namespace
 {
 
-using Motion = ins_motion_t;
+struct Motion
+{
+    std::shared_ptr<ins_motion_t> handle;
+};
+
 using Sine = std::array<double, 4>; // offset, amplitude, frequency_hz, phase
 
-template <typename Create> std::shared_ptr<Motion> motion(Create create)
+template <typename Create> Motion motion(Create create)
 {
     std::array<char, 256> why{};
-    Motion* made = create(why.data(), why.size());
+    ins_motion_t* made = create(why.data(), why.size());
     if (made == nullptr)
     {
         throw std::invalid_argument(why.data());
     }
-    return {made, ins_motion_destroy};
+    return {{made, ins_motion_destroy}};
 }
 
 ins_motion_sine_t sine(const Sine& s)
@@ -62,8 +65,8 @@ std::vector<double> scored_row(const Scored& s)
     row.insert(row.end(), std::begin(s.state.q_nb), std::end(s.state.q_nb));
     row.insert(row.end(), s.q_nb.begin(), s.q_nb.end());
     row.insert(row.end(), std::begin(s.state.w_ib_b), std::end(s.state.w_ib_b));
-    for (const uint64_t value : {uint64_t{s.state.seq}, uint64_t{s.state.bridged}, uint64_t{s.state.status}, s.state.used,
-                                 s.state.missed, s.state.counts.accepted, s.state.counts.lost})
+    for (const uint64_t value : {uint64_t{s.state.seq}, uint64_t{s.state.bridged}, uint64_t{s.state.status},
+                                 s.state.used, s.state.missed, s.state.counts.accepted, s.state.counts.lost})
     {
         row.push_back(static_cast<double>(value));
     }
@@ -145,12 +148,15 @@ nb::dict counters(const Run& run)
     return d;
 }
 
-ins_nav_config_t nav_config(double period_s, unsigned block_len, bool sequence, const std::string& form, unsigned rate_order,
-                            const std::array<double, 3>& skew_s, const ins_gyro_config_t& gyro)
+ins_nav_config_t nav_config(double period_s, unsigned block_len, bool sequence, const std::string& form,
+                            unsigned rate_order, const std::array<double, 3>& skew_s, const ins_gyro_config_t& gyro)
 {
-    static const std::vector<std::pair<std::string, int>> forms = {
-        {"one", INS_CONING_ONE},          {"hist1", INS_CONING_HIST1},          {"hist2_fit", INS_CONING_HIST2_FIT},
-        {"hist2_opt", INS_CONING_HIST2_OPT}, {"hist3_fit", INS_CONING_HIST3_FIT}, {"hist3_opt", INS_CONING_HIST3_OPT}};
+    static const std::vector<std::pair<std::string, int>> forms = {{"one", INS_CONING_ONE},
+                                                                   {"hist1", INS_CONING_HIST1},
+                                                                   {"hist2_fit", INS_CONING_HIST2_FIT},
+                                                                   {"hist2_opt", INS_CONING_HIST2_OPT},
+                                                                   {"hist3_fit", INS_CONING_HIST3_FIT},
+                                                                   {"hist3_opt", INS_CONING_HIST3_OPT}};
     ins_nav_config_t cfg;
     ins_nav_config_default(&cfg);
     cfg.period_s = period_s;
@@ -174,13 +180,12 @@ ins_nav_config_t nav_config(double period_s, unsigned block_len, bool sequence, 
 NB_MODULE(_run, m)
 {
     m.doc() = "Deterministic runs of the acquisition board, fed from a known motion and scored against it.";
-    m.attr("STATE_COLUMNS") =
-        names({"index",       "scan",         "t_s",         "age_s",       "error_roll_rad", "error_pitch_rad",
-               "error_yaw_rad", "roll_rad",   "pitch_rad",   "yaw_rad",     "true_roll_rad",  "true_pitch_rad",
-               "true_yaw_rad", "q_w",         "q_x",         "q_y",         "q_z",            "true_q_w",
-               "true_q_x",    "true_q_y",     "true_q_z",    "w_x_rad_s",   "w_y_rad_s",      "w_z_rad_s",
-               "seq",         "bridged",      "status",      "used",        "missed",         "accepted",
-               "lost"});
+    m.attr("STATE_COLUMNS") = names(
+        {"index",     "scan",      "t_s",       "age_s",         "error_roll_rad", "error_pitch_rad", "error_yaw_rad",
+         "roll_rad",  "pitch_rad", "yaw_rad",   "true_roll_rad", "true_pitch_rad", "true_yaw_rad",    "q_w",
+         "q_x",       "q_y",       "q_z",       "true_q_w",      "true_q_x",       "true_q_y",        "true_q_z",
+         "w_x_rad_s", "w_y_rad_s", "w_z_rad_s", "seq",           "bridged",        "status",          "used",
+         "missed",    "accepted",  "lost"});
     m.attr("SCAN_COLUMNS") = names({"x_s", "y_s", "z_s", "x_code", "y_code", "z_code"});
     nb::list wires;
     for (const char* wire : Run::traced)
@@ -190,81 +195,96 @@ NB_MODULE(_run, m)
     m.attr("WIRES") = wires;
 
     nb::class_<Motion>(m, "Motion", "A known rotation as a function of time; see ins_truth/motion.h.")
-        .def("euler",
-             [](const Motion& self, double t)
-             {
-                 std::array<double, 3> rpy{};
-                 ins_motion_euler(&self, t, rpy.data());
-                 return rpy;
-             },
-             "t"_a, "Roll, pitch, yaw [rad] at t [s].")
-        .def("attitude",
-             [](const Motion& self, double t)
-             {
-                 std::array<double, 4> q{};
-                 ins_motion_attitude(&self, t, q.data());
-                 return q;
-             },
-             "t"_a, "q_nb, scalar first, at t [s].")
-        .def("span",
-             [](const Motion& self)
-             {
-                 std::array<double, 2> span{};
-                 ins_motion_span(&self, &span[0], &span[1]);
-                 return span;
-             },
-             "First and last instant the motion is known for [s].");
-    m.def("motion_rate",
-          [](const std::array<double, 3>& w_ib_b, double ramp_s)
-          {
-              const double level[4] = {1.0, 0.0, 0.0, 0.0};
-              return motion([&](char* why, size_t n) { return ins_motion_create_rate(w_ib_b.data(), level, ramp_s, why, n); });
-          },
-          "w_ib_b"_a, "ramp_s"_a);
-    m.def("motion_euler",
-          [](const Sine& yaw, const Sine& pitch, const Sine& roll, double ramp_s)
-          {
-              const ins_motion_sines_t sines = {sine(yaw), sine(pitch), sine(roll)};
-              return motion([&](char* why, size_t n) { return ins_motion_create_euler(&sines, ramp_s, why, n); });
-          },
-          "yaw"_a, "pitch"_a, "roll"_a, "ramp_s"_a);
-    m.def("motion_coning",
-          [](double half_angle, double frequency_hz, double ramp_s)
-          { return motion([&](char* why, size_t n) { return ins_motion_create_coning(half_angle, frequency_hz, ramp_s, why, n); }); },
-          "half_angle"_a, "frequency_hz"_a, "ramp_s"_a);
-    m.def("motion_table",
-          [](const std::vector<double>& t, const std::vector<double>& yaw, const std::vector<double>& pitch,
-             const std::vector<double>& roll, double ramp_s)
-          {
-              if (yaw.size() != t.size() || pitch.size() != t.size() || roll.size() != t.size())
-              {
-                  throw std::invalid_argument("t, yaw, pitch and roll must have the same length");
-              }
-              return motion(
-                  [&](char* why, size_t n)
-                  { return ins_motion_create_table(t.size(), t.data(), yaw.data(), pitch.data(), roll.data(), ramp_s, why, n); });
-          },
-          "t"_a, "yaw"_a, "pitch"_a, "roll"_a, "ramp_s"_a);
+        .def(
+            "euler",
+            [](const Motion& self, double t)
+            {
+                std::array<double, 3> rpy{};
+                ins_motion_euler(self.handle.get(), t, rpy.data());
+                return rpy;
+            },
+            "t"_a, "Roll, pitch, yaw [rad] at t [s].")
+        .def(
+            "attitude",
+            [](const Motion& self, double t)
+            {
+                std::array<double, 4> q{};
+                ins_motion_attitude(self.handle.get(), t, q.data());
+                return q;
+            },
+            "t"_a, "q_nb, scalar first, at t [s].")
+        .def(
+            "span",
+            [](const Motion& self)
+            {
+                std::array<double, 2> span{};
+                ins_motion_span(self.handle.get(), &span[0], &span[1]);
+                return span;
+            },
+            "First and last instant the motion is known for [s].");
+    m.def(
+        "motion_rate",
+        [](const std::array<double, 3>& w_ib_b, double ramp_s)
+        {
+            const double level[4] = {1.0, 0.0, 0.0, 0.0};
+            return motion([&](char* why, size_t n)
+                          { return ins_motion_create_rate(w_ib_b.data(), level, ramp_s, why, n); });
+        },
+        "w_ib_b"_a, "ramp_s"_a);
+    m.def(
+        "motion_euler",
+        [](const Sine& yaw, const Sine& pitch, const Sine& roll, double ramp_s)
+        {
+            const ins_motion_sines_t sines = {sine(yaw), sine(pitch), sine(roll)};
+            return motion([&](char* why, size_t n) { return ins_motion_create_euler(&sines, ramp_s, why, n); });
+        },
+        "yaw"_a, "pitch"_a, "roll"_a, "ramp_s"_a);
+    m.def(
+        "motion_coning",
+        [](double half_angle, double frequency_hz, double ramp_s)
+        {
+            return motion([&](char* why, size_t n)
+                          { return ins_motion_create_coning(half_angle, frequency_hz, ramp_s, why, n); });
+        },
+        "half_angle"_a, "frequency_hz"_a, "ramp_s"_a);
+    m.def(
+        "motion_table",
+        [](const std::vector<double>& t, const std::vector<double>& yaw, const std::vector<double>& pitch,
+           const std::vector<double>& roll, double ramp_s)
+        {
+            if (yaw.size() != t.size() || pitch.size() != t.size() || roll.size() != t.size())
+            {
+                throw std::invalid_argument("t, yaw, pitch and roll must have the same length");
+            }
+            return motion(
+                [&](char* why, size_t n) {
+                    return ins_motion_create_table(t.size(), t.data(), yaw.data(), pitch.data(), roll.data(), ramp_s,
+                                                   why, n);
+                });
+        },
+        "t"_a, "yaw"_a, "pitch"_a, "roll"_a, "ramp_s"_a);
 
     nb::class_<ins_gyro_config_t>(m, "Gyro", "Three rate gyros with amplifiers; see ins_truth/gyro.h.")
-        .def("set",
-             [](ins_gyro_config_t& self, const std::string& key, const std::array<double, 3>& values)
-             {
-                 for (size_t i = 0; i < INS_GYRO_CHANNELS; i++)
-                 {
-                     double ins_gyro_channel_t::*const member = key == "bandwidth_hz"       ? &ins_gyro_channel_t::bandwidth_hz
-                                                                : key == "noise_rad_s_rthz" ? &ins_gyro_channel_t::noise_density
-                                                                : key == "bias_rad_s"       ? &ins_gyro_channel_t::bias
-                                                                : key == "drift_rad_s2"     ? &ins_gyro_channel_t::drift
-                                                                                            : nullptr;
-                     if (member == nullptr)
-                     {
-                         throw std::invalid_argument("a gyro has no " + key);
-                     }
-                     self.channel[i].*member = values[i];
-                 }
-             },
-             "key"_a, "values"_a)
+        .def(
+            "set",
+            [](ins_gyro_config_t& self, const std::string& key, const std::array<double, 3>& values)
+            {
+                for (size_t i = 0; i < INS_GYRO_CHANNELS; i++)
+                {
+                    double ins_gyro_channel_t::*const member = key == "bandwidth_hz" ? &ins_gyro_channel_t::bandwidth_hz
+                                                               : key == "noise_rad_s_rthz"
+                                                                   ? &ins_gyro_channel_t::noise_density
+                                                               : key == "bias_rad_s"   ? &ins_gyro_channel_t::bias
+                                                               : key == "drift_rad_s2" ? &ins_gyro_channel_t::drift
+                                                                                       : nullptr;
+                    if (member == nullptr)
+                    {
+                        throw std::invalid_argument("a gyro has no " + key);
+                    }
+                    self.channel[i].*member = values[i];
+                }
+            },
+            "key"_a, "values"_a)
         .def_rw("seed", &ins_gyro_config_t::seed);
     m.def("gyro_ideal",
           []
@@ -295,13 +315,19 @@ NB_MODULE(_run, m)
         .def_rw("nav", &RunConfig::nav)
         .def_rw("start_at_truth", &RunConfig::start_at_truth)
         .def_rw("trace", &RunConfig::trace)
-        .def("add_segment",
-             [](RunConfig& self, uint16_t address, const nb::bytes& octets)
-             { self.image.push_back({address, std::string(octets.c_str(), octets.size())}); },
-             "address"_a, "octets"_a);
+        .def(
+            "add_segment",
+            [](RunConfig& self, uint16_t address, const nb::bytes& octets) {
+                self.image.push_back({address, std::string(octets.c_str(), octets.size())});
+            },
+            "address"_a, "octets"_a);
 
     nb::class_<Run>(m, "Run", "See run.hpp.")
-        .def(nb::init<const RunConfig&, std::shared_ptr<Motion>, const ins_gyro_config_t&>(), "config"_a, "motion"_a, "gyro"_a)
+        .def(
+            "__init__",
+            [](Run* self, const RunConfig& config, const Motion& motion, const ins_gyro_config_t& gyro)
+            { new (self) Run(config, motion.handle, gyro); },
+            "config"_a, "motion"_a, "gyro"_a)
         .def("until", &Run::until, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
         .def_prop_ro("now_ps", &Run::now)
         .def("take_states", take_states)
@@ -312,11 +338,14 @@ NB_MODULE(_run, m)
                  const std::string octets = self.take_octets();
                  return nb::bytes(octets.data(), octets.size());
              })
-        .def("send", [](Run& self, const nb::bytes& octets) { return self.send(std::string(octets.c_str(), octets.size())); },
-             "octets"_a)
+        .def(
+            "send",
+            [](Run& self, const nb::bytes& octets) { return self.send(std::string(octets.c_str(), octets.size())); },
+            "octets"_a)
         .def("scans", scans)
         .def("counters", counters)
-        .def("iram", [](const Run& self, uint8_t address) { return mcs51_iram(self.cpu(), address); }, "address"_a)
+        .def(
+            "iram", [](const Run& self, uint8_t address) { return mcs51_iram(self.cpu(), address); }, "address"_a)
         .def("reports",
              [](const Run& self)
              {
