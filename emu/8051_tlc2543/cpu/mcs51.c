@@ -1,0 +1,308 @@
+/// \file   mcs51.c
+/// \brief  The part as a whole: creation, reset, the run loop, idle, power-down, watchdog, debug access. Atmel 2487D.
+/// SPDX-License-Identifier: MIT
+#include "mcs51_internal.h"
+#include <stdlib.h>
+#include <string.h>
+
+#define LONGEST_SLICE 0x40000000u ///< cycles; `left` has 32 bits
+
+mcs51_t* mcs51_create(const mcs51_config_t* config)
+{
+    mcs51_t* const self = calloc(1, sizeof *self);
+    if (!self)
+    {
+        return NULL;
+    }
+    self->config = *config;
+    memset(self->outside, 0xFF, sizeof self->outside);
+    memset(self->out, 0xFF, sizeof self->out);
+    memset(self->code, MCS51_ABSENT_CODE, sizeof self->code);
+    memset(self->code, 0xFF, MCS51_FLASH); // erased flash
+    mcs51_reset(self, true);
+    return self;
+}
+
+void mcs51_destroy(mcs51_t* self)
+{
+    free(self);
+}
+
+void mcs51_reset(mcs51_t* self, bool power_on)
+{
+    static const uint8_t ports[4] = {P0, P1, P2, P3};
+    const uint64_t now = mcs51_cycle(self);
+    uint8_t* const mem = self->mem;
+    const uint8_t pof = power_on ? PCON_POF : mem[PCON] & PCON_POF;
+    const uint8_t received = mem[SBUF]; // SBUF is undefined after reset: kept
+
+    memset(mem + 0x80, 0, 0x80);
+    if (power_on)
+    {
+        memset(mem, 0, 0x80);
+    }
+    mem[SP] = 0x07;
+    mem[PCON] = pof;
+    mem[SBUF] = power_on ? 0 : received;
+    for (unsigned i = 0; i < 4; ++i)
+    {
+        mem[ports[i]] = 0xFF;
+    }
+    self->pc = 0;
+    self->cy = 0;
+    self->fx = 0;
+    self->dptr = DP0L;
+    self->in_service = 0;
+    self->self_jump = false;
+    self->halted = false;
+    self->timer_at = now;
+    self->gate_at = 0;
+    memset(self->flag_at, 0, sizeof self->flag_at);
+    self->wdt_due = MCS51_NEVER;
+    self->wdt_armed = false;
+    self->once = 0;
+    memset(self->absent_sfr, 0, sizeof self->absent_sfr);
+    self->alternate = 0xFF;
+    self->p3_due = MCS51_NEVER;
+    self->p3_sampled = mcs51_port_pins(self, 3);
+    mcs51_uart_reset(self);
+    for (unsigned i = 0; i < 4; ++i)
+    {
+        mcs51_port_drive(self, i, now);
+    }
+    mcs51_level_requests(self, now);
+    mcs51_look_at(self, now);
+}
+
+int mcs51_load(mcs51_t* self, uint16_t address, const uint8_t* octets, size_t count)
+{
+    if (address > MCS51_FLASH || count > MCS51_FLASH - address)
+    {
+        return -1;
+    }
+    memcpy(self->code + address, octets, count);
+    return 0;
+}
+
+void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const char* text, uint32_t detail)
+{
+    if (self->once & once)
+    {
+        return;
+    }
+    self->once |= once;
+    if (self->config.report.put)
+    {
+        self->config.report.put(self->config.report.ctx, kind, text, detail,
+                                emu_clock_time(&self->config.clock, mcs51_cycle(self)));
+    }
+}
+
+uint8_t mcs51_absent_ram(mcs51_t* self, unsigned address)
+{
+    mcs51_report(self, EMU_GUEST_ERROR, ONCE_RAM,
+                 "no RAM at this address: the AT89S51 has 00h..7Fh (@Ri, stack; SDCC: build with --iram-size 128)",
+                 address);
+    return MCS51_ABSENT_RAM;
+}
+
+uint8_t mcs51_absent_code(mcs51_t* self, unsigned address)
+{
+    mcs51_report(self, EMU_GUEST_ERROR, ONCE_CODE, "code read beyond the 4096 octets of flash", address);
+    return MCS51_ABSENT_CODE;
+}
+
+uint8_t mcs51_absent_xram(mcs51_t* self, unsigned address)
+{
+    mcs51_report(self, EMU_NOT_MODELLED, ONCE_XRAM,
+                 "MOVX: the external bus is not modelled; reads FFh, writes are lost", address);
+    return MCS51_ABSENT_XRAM;
+}
+
+void mcs51_reserved_opcode(mcs51_t* self)
+{
+    const uint16_t address = (uint16_t)(self->pc - 1u);
+    if (address >= MCS51_FLASH)
+    {
+        mcs51_absent_code(self, address);
+    }
+    else
+    {
+        mcs51_report(self, EMU_GUEST_ERROR, ONCE_A5, "opcode A5h is reserved (run as a NOP), at this address", address);
+    }
+}
+
+uint64_t mcs51_cycle(const mcs51_t* self)
+{
+    return self->horizon - (uint64_t)(int64_t)self->left;
+}
+
+uint64_t mcs51_instructions(const mcs51_t* self)
+{
+    return self->instructions;
+}
+
+uint64_t mcs51_interrupts(const mcs51_t* self)
+{
+    return self->interrupts;
+}
+
+void mcs51_look_at(mcs51_t* self, uint64_t cycle)
+{
+    if (cycle < self->horizon)
+    {
+        const uint64_t now = mcs51_cycle(self);
+        self->horizon = cycle;
+        self->left = cycle > now ? (int32_t)(cycle - now) : -(int32_t)(now - cycle);
+    }
+}
+
+void mcs51_shorten(mcs51_t* self, uint64_t cycle)
+{
+    if (cycle < self->until)
+    {
+        self->until = cycle;
+        mcs51_look_at(self, cycle);
+    }
+}
+
+static uint64_t earlier(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+static void set_horizon(mcs51_t* self, uint64_t now)
+{
+    uint64_t next = earlier(self->until, now + LONGEST_SLICE);
+    next = earlier(next, mcs51_interrupt_next(self, now));
+    next = earlier(next, mcs51_periph_next(self));
+    next = earlier(next, self->wdt_due);
+    for (unsigned n = 0; n < 2; ++n)
+    {
+        const uint8_t enable = (uint8_t)(IE_EA | 0x02u << 2 * n), flag = (uint8_t)(0x20u << 2 * n);
+        if ((self->mem[IE] & enable) == enable && !(self->mem[TCON] & flag))
+        {
+            const uint64_t overflow = mcs51_timer_next(self, n);
+            next = earlier(next,
+                           overflow == MCS51_NEVER ? overflow : overflow + 1u); // the flag is polled in the next cycle
+        }
+    }
+    self->horizon = next;
+    self->left = next > now ? (int32_t)(next - now) : 0;
+}
+
+static void watchdog_reset(mcs51_t* self)
+{
+    mcs51_report(self, EMU_GUEST_ERROR, 0, "watchdog overflow: the part resets itself, from this address", self->pc);
+    self->left -= (int32_t)MCS51_WDT_RESET;
+    mcs51_reset(self, false);
+}
+
+/// The oscillator stands still: nothing counts for that long.
+static void freeze(mcs51_t* self, uint64_t now, uint64_t until)
+{
+    self->timer_at += until - now;
+    self->frozen += until - now;
+    self->wdt_due = self->wdt_due == MCS51_NEVER ? MCS51_NEVER : self->wdt_due + (until - now);
+    self->horizon = until;
+    self->left = 0;
+}
+
+mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
+{
+    self->until = until_cycle;
+    for (;;)
+    {
+        const uint64_t now = mcs51_cycle(self);
+        if (self->mem[PCON] & PCON_PD)
+        {
+            if (now < self->until)
+            {
+                freeze(self, now, self->until);
+            }
+            return MCS51_POWER_DOWN;
+        }
+        mcs51_sync(self, earlier(now, self->until));
+        if (now >= self->until)
+        {
+            return self->halted ? MCS51_HALTED : MCS51_RAN;
+        }
+        if (now >= self->wdt_due)
+        {
+            watchdog_reset(self);
+            continue;
+        }
+        if (mcs51_interrupt(self, now))
+        {
+            continue;
+        }
+        set_horizon(self, now);
+        const bool idle = self->mem[PCON] & PCON_IDL;
+        if (idle)
+        {
+            self->left = 0;
+            continue;
+        }
+        mcs51_engine(self);
+        if (self->self_jump)
+        {
+            self->self_jump = false;
+            const bool was_halted = self->halted;
+            self->halted = !(self->mem[IE] & IE_EA) && self->wdt_due == MCS51_NEVER;
+            if (self->halted && !was_halted)
+            {
+                return MCS51_HALTED;
+            }
+            const int32_t turns = (self->left + 1) / 2; // 2 cycles each
+            self->left -= 2 * turns;
+            self->instructions += (uint64_t)turns;
+        }
+    }
+}
+
+uint16_t mcs51_pc(const mcs51_t* self)
+{
+    return (uint16_t)self->pc;
+}
+
+void mcs51_set_pc(mcs51_t* self, uint16_t pc)
+{
+    self->pc = pc;
+    self->halted = false;
+}
+
+uint8_t mcs51_iram(const mcs51_t* self, uint8_t address)
+{
+    return address < 0x80u ? self->mem[address] : MCS51_ABSENT_RAM;
+}
+
+void mcs51_set_iram(mcs51_t* self, uint8_t address, uint8_t value)
+{
+    if (address < 0x80u)
+    {
+        self->mem[address] = value;
+    }
+}
+
+uint8_t mcs51_sfr(mcs51_t* self, uint8_t address)
+{
+    if (address == PSW)
+    {
+        return mcs51_psw(self);
+    }
+    mcs51_sync(self, earlier(mcs51_cycle(self), self->until));
+    return address < 0x80u ? MCS51_ABSENT_SFR : self->mem[address];
+}
+
+void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value)
+{
+    if (address >= 0x80u)
+    {
+        mcs51_write(self, address, value);
+    }
+}
+
+uint8_t mcs51_code(const mcs51_t* self, uint16_t address)
+{
+    return self->code[address];
+}

@@ -1,0 +1,189 @@
+/// \file   cpu/mcs51_internal.h
+/// \brief  State of one AT89S51 and what its files offer each other. Not installed.
+///
+/// Time: now = horizon - left. The engine only counts `left` down and comes back when it is spent; `horizon` is the next cycle at
+/// which anything can happen by itself. An instruction reads and writes SFRs and pins at its end (Intel: latch at S6P2 of the last
+/// cycle, timers step at S3P1), so inside one, now is its end.
+/// SPDX-License-Identifier: MIT
+#ifndef MCS51_INTERNAL_H_INCLUDED
+#define MCS51_INTERNAL_H_INCLUDED
+#include "emu_8051/mcs51.h"
+
+#define MCS51_FLASH 4096u
+#define MCS51_NEVER UINT64_MAX
+
+/// What the data sheet leaves open, chosen once and named here.
+#define MCS51_ABSENT_SFR  0xFFu ///< read of an SFR address that the part does not have (silicon: undefined)
+#define MCS51_ABSENT_RAM  0xFFu ///< indirect read of 80..FF, where a 128-octet part has no RAM (silicon: undefined)
+#define MCS51_ABSENT_CODE 0xA5u ///< code fetched beyond the flash: the reserved opcode, so that a runaway shows at once
+#define MCS51_ABSENT_XRAM 0xFFu ///< MOVX reads: the external bus is not modelled
+#define MCS51_WDT_CYCLES  16383u ///< overflow of the 14-bit watchdog, from the cycle in which it was last cleared
+#define MCS51_WDT_RESET   9u     ///< 98 oscillator periods of reset pulse, in whole machine cycles
+
+enum
+{
+    P0 = 0x80,
+    SP = 0x81,
+    DP0L = 0x82,
+    DP0H = 0x83,
+    DP1L = 0x84,
+    DP1H = 0x85,
+    PCON = 0x87,
+    TCON = 0x88,
+    TMOD = 0x89,
+    TL0 = 0x8A,
+    TL1 = 0x8B,
+    TH0 = 0x8C,
+    TH1 = 0x8D,
+    AUXR = 0x8E,
+    P1 = 0x90,
+    SCON = 0x98,
+    SBUF = 0x99,
+    P2 = 0xA0,
+    AUXR1 = 0xA2,
+    WDTRST = 0xA6,
+    IE = 0xA8,
+    P3 = 0xB0,
+    IP = 0xB8,
+    PSW = 0xD0,
+    ACC = 0xE0,
+    B = 0xF0
+};
+
+enum
+{
+    PCON_IDL = 0x01,
+    PCON_PD = 0x02,
+    PCON_POF = 0x10,
+    PCON_SMOD = 0x80,
+    AUXR_WDIDLE = 0x10,
+    IE_EA = 0x80,
+    SCON_RI = 0x01,
+    SCON_TI = 0x02,
+    SCON_RB8 = 0x04,
+    SCON_TB8 = 0x08,
+    SCON_REN = 0x10,
+    SCON_SM2 = 0x20,
+    P3_RXD = 0x01,
+    P3_TXD = 0x02
+};
+
+/// Interrupt sources in polling order; bit n of IE and IP; vector 8 n + 3.
+enum
+{
+    IRQ_INT0,
+    IRQ_T0,
+    IRQ_INT1,
+    IRQ_T1,
+    IRQ_SERIAL,
+    IRQ_COUNT
+};
+
+/// Reports given once after each reset.
+enum
+{
+    ONCE_A5 = 1,
+    ONCE_CODE = 2,
+    ONCE_RAM = 4,
+    ONCE_XRAM = 8,
+    ONCE_WDTRST = 16
+};
+
+typedef enum uart_rx_state_t
+{
+    RX_IDLE,   ///< looking for a fall of RXD
+    RX_WATCH,  ///< RXD fell: start at the next tick if it is still low
+    RX_SAMPLE, ///< sampling bits at 7, 8, 9 of 16 ticks
+    RX_WAIT,   ///< modes 2, 3: the stop bit
+    RX_SHIFT   ///< mode 0
+} uart_rx_state_t;
+
+/// Due times count ticks of the baud clock: cycles (mode 0), half oscillator periods of 6 a cycle (mode 2), T1 overflows (modes 1, 3).
+typedef struct uart_t
+{
+    uint64_t tx_due, rx_due; ///< MCS51_NEVER: nothing under way
+    uint16_t tx_frame, rx_frame;
+    uint8_t tx_bit, tx_bits, rx_bit, rx_samples, rx_votes;
+    uart_rx_state_t rx_state;
+} uart_t;
+
+struct mcs51_t
+{
+    mcs51_config_t config;
+    uint64_t horizon, until, instructions, interrupts;
+    int32_t left;
+    uint32_t pc;
+    uint32_t cy;        ///< 0 or 1
+    uint32_t fx;        ///< a ^ x ^ result of the last sum: AC is bit 4, OV is bit 7 ^ bit 8
+    uint8_t mem[256];   ///< 00-7F RAM, 80-FF SFR latches; ACC is kept here, CY AC OV P of PSW are not
+    uint8_t dptr;       ///< DP0L or DP1L, as AUXR1 selects
+    uint8_t in_service; ///< bit 0 low, bit 1 high priority
+    bool self_jump, halted;
+    uint64_t flag_at[IRQ_COUNT]; ///< cycle in which the request flag went up: polled in the next one
+    uint64_t gate_at;            ///< end of the last RETI or write to IE or IP: no vector at this boundary
+    uint64_t timer_at;           ///< TL0 TH0 TL1 TH1 are true at this cycle
+    uint64_t t1_overflows;
+    uint64_t frozen; ///< cycles spent in power-down, in which no clock ran
+    uint64_t wdt_due;
+    bool wdt_armed; ///< 1Eh was written to WDTRST
+    uint8_t outside[4], out[4];
+    uint8_t alternate; ///< alternate outputs of P3: TXD, and RXD in mode 0
+    uint8_t p3_sampled;
+    uint64_t p3_due; ///< cycle at which a change on P3 has been sampled
+    uart_t uart;
+    uint32_t once;
+    uint8_t absent_sfr[16]; ///< bitmap: reported since reset
+    uint8_t code[65536];
+};
+
+/// Engine: execute until left <= 0, or until a jump to itself is reached (self_jump; it has not been executed).
+void mcs51_engine(mcs51_t* self);
+
+/// An SFR is plain memory to the engine while left > limit.
+extern const int32_t mcs51_read_limit[256], mcs51_latch_limit[256], mcs51_write_limit[256];
+uint8_t mcs51_read(mcs51_t* self, unsigned address);
+uint8_t mcs51_read_latch(mcs51_t* self, unsigned address); ///< for read-modify-write
+void mcs51_write(mcs51_t* self, unsigned address, uint8_t value);
+uint8_t mcs51_psw(const mcs51_t* self);
+
+uint8_t mcs51_absent_ram(mcs51_t* self, unsigned address);
+uint8_t mcs51_absent_code(mcs51_t* self, unsigned address);
+uint8_t mcs51_absent_xram(mcs51_t* self, unsigned address);
+void mcs51_reserved_opcode(mcs51_t* self);
+void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const char* text, uint32_t detail);
+
+/// Come back to the run loop at the first instruction boundary at or after `cycle`.
+void mcs51_look_at(mcs51_t* self, uint64_t cycle);
+void mcs51_reti(mcs51_t* self);
+/// Take the request that is due at this boundary. \return whether one was taken (two cycles passed).
+bool mcs51_interrupt(mcs51_t* self, uint64_t now);
+/// First boundary at which a request can be taken that cannot be taken now, or MCS51_NEVER.
+uint64_t mcs51_interrupt_next(mcs51_t* self, uint64_t now);
+void mcs51_raise(mcs51_t* self, unsigned irq, unsigned sfr, uint8_t flag, uint64_t at);
+
+/// Everything that happens by itself, up to and with cycle t.
+void mcs51_sync(mcs51_t* self, uint64_t t);
+/// Next cycle at which the ports or the UART do something.
+uint64_t mcs51_periph_next(const mcs51_t* self);
+
+void mcs51_timers_sync(mcs51_t* self, uint64_t t);
+void mcs51_timers_fell(mcs51_t* self, uint8_t fell);          ///< falls on T0, T1 were sampled
+uint64_t mcs51_timer_next(const mcs51_t* self, unsigned n);   ///< next overflow that sets TFn
+uint64_t mcs51_t1_time(const mcs51_t* self, uint64_t number); ///< cycle of T1's overflow of that number
+
+void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at);
+uint8_t mcs51_port_pins(const mcs51_t* self, unsigned port);
+void mcs51_alternate(mcs51_t* self, uint8_t mask, bool level, uint64_t at);
+void mcs51_level_requests(mcs51_t* self, uint64_t at);
+void mcs51_pins_sample(mcs51_t* self, uint64_t at);
+
+void mcs51_uart_reset(mcs51_t* self);
+uint64_t mcs51_uart_tx_time(const mcs51_t* self);
+uint64_t mcs51_uart_rx_time(const mcs51_t* self);
+void mcs51_uart_tx(mcs51_t* self, uint64_t at);
+void mcs51_uart_rx(mcs51_t* self, uint64_t at);
+void mcs51_uart_rxd_fell(mcs51_t* self);
+void mcs51_uart_sbuf(mcs51_t* self, uint8_t value, uint64_t now);
+void mcs51_uart_scon(mcs51_t* self, uint8_t old, uint64_t now);
+
+#endif // MCS51_INTERNAL_H_INCLUDED

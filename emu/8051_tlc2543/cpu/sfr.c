@@ -1,0 +1,210 @@
+/// \file   sfr.c
+/// \brief  Special function registers of the AT89S51 (Atmel 2487D, table "SFR map") as the engine reads and writes them.
+/// SPDX-License-Identifier: MIT
+#include "mcs51_internal.h"
+#include <limits.h>
+
+// An access is plain memory while left > limit. P: always. F: no event is due yet (registers that only scheduled events change).
+// S: never, there are side effects; also for addresses that the part does not have.
+#define P     INT32_MIN
+#define F     0
+#define S     INT32_MAX
+#define P8    P, P, P, P, P, P, P, P
+#define P64   P8, P8, P8, P8, P8, P8, P8, P8
+#define S8    S, S, S, S, S, S, S, S
+#define B_ROW P, S, S, S, S, S, S, S
+
+// clang-format off
+const int32_t mcs51_read_limit[256] = {
+    P64, P64,
+    S, P, P, P, P, P, S, P,  S, P, S, S, S, S, P, S, // 80: P0 SP DP0 DP1 PCON, TCON TMOD TL TH AUXR
+    S8,                      F, F, S, S, S, S, S, S, // 90: P1, SCON SBUF
+    S, S, P, S, S, S, S, S,  B_ROW,                  // A0: P2 AUXR1 WDTRST, IE
+    S8,                      B_ROW,                  // B0: P3, IP
+    S8, S8,
+    S8, S8,                                          // D0: PSW
+    B_ROW, S8, B_ROW, S8};                           // E0: ACC, F0: B
+const int32_t mcs51_latch_limit[256] = {
+    P64, P64,
+    P, P, P, P, P, P, S, P,  S, P, S, S, S, S, P, S,
+    B_ROW,                   F, F, S, S, S, S, S, S,
+    P, S, P, S, S, S, S, S,  B_ROW,
+    B_ROW,                   B_ROW,
+    S8, S8,
+    S8, S8,
+    B_ROW, S8, B_ROW, S8};
+const int32_t mcs51_write_limit[256] = {
+    P64, P64,
+    S, P, P, P, P, P, S, S,  S8,
+    S8, S8,
+    S8, S8,
+    S8, S8,
+    S8, S8,
+    S8, S8,
+    B_ROW, S8, B_ROW, S8};
+// clang-format on
+
+uint8_t mcs51_psw(const mcs51_t* self)
+{
+    unsigned parity = self->mem[ACC];
+    parity ^= parity >> 4;
+    parity ^= parity >> 2;
+    parity ^= parity >> 1;
+    const unsigned ac = (self->fx >> 4) & 1u, ov = (self->fx >> 7 ^ self->fx >> 8) & 1u;
+    return (uint8_t)(self->cy << 7 | ac << 6 | (self->mem[PSW] & 0x3Au) | ov << 2 | (parity & 1u));
+}
+
+static bool absent(unsigned address)
+{
+    static const uint8_t present[16] = {0xBF, 0x7F, 0x01, 0x03, 0x45, 0x01, 0x01, 0x01,
+                                        0,    0,    0x01, 0,    0x01, 0,    0x01, 0};
+    return !(present[(address - 0x80u) >> 3] >> (address & 7u) & 1u);
+}
+
+static void report_absent(mcs51_t* self, unsigned address)
+{
+    uint8_t* const seen = &self->absent_sfr[(address - 0x80u) >> 3];
+    const uint8_t bit = (uint8_t)(1u << (address & 7u));
+    if (!(*seen & bit))
+    {
+        *seen |= bit;
+        mcs51_report(self, EMU_GUEST_ERROR, 0, "the AT89S51 has no SFR at this address", address);
+    }
+}
+
+static uint8_t read_synced(mcs51_t* self, unsigned address)
+{
+    if (address == PSW)
+    {
+        return mcs51_psw(self);
+    }
+    if (absent(address))
+    {
+        report_absent(self, address);
+        return MCS51_ABSENT_SFR;
+    }
+    if (address == WDTRST)
+    {
+        mcs51_report(self, EMU_GUEST_ERROR, ONCE_WDTRST, "WDTRST is write only", address);
+        return MCS51_ABSENT_SFR;
+    }
+    const uint64_t now = mcs51_cycle(self);
+    if (now > self->until && self->config.sync)
+    {
+        self->config.sync(self->config.ctx, now);
+    }
+    mcs51_sync(self, now);
+    return self->mem[address];
+}
+
+uint8_t mcs51_read(mcs51_t* self, unsigned address)
+{
+    if ((address & 0xCFu) != P0)
+    {
+        return read_synced(self, address);
+    }
+    const uint64_t now = mcs51_cycle(self);
+    if (self->config.sync)
+    {
+        self->config.sync(self->config.ctx, now);
+    }
+    mcs51_sync(self, now);
+    return mcs51_port_pins(self, (address >> 4) & 3u);
+}
+
+uint8_t mcs51_read_latch(mcs51_t* self, unsigned address)
+{
+    return read_synced(self, address);
+}
+
+/// A request flag that software raises is polled like one that hardware raises: from the next cycle on.
+static void write_requests(mcs51_t* self, unsigned address, uint8_t value, uint64_t now)
+{
+    static const struct
+    {
+        uint8_t sfr, flags, irq;
+    } request[] = {{TCON, 0x02, IRQ_INT0},
+                   {TCON, 0x20, IRQ_T0},
+                   {TCON, 0x08, IRQ_INT1},
+                   {TCON, 0x80, IRQ_T1},
+                   {SCON, SCON_RI | SCON_TI, IRQ_SERIAL}};
+    const uint8_t old = self->mem[address];
+    for (unsigned i = 0; i < sizeof request / sizeof request[0]; ++i)
+    {
+        if (request[i].sfr == address && (value & request[i].flags) && !(old & request[i].flags))
+        {
+            self->flag_at[request[i].irq] = now;
+        }
+    }
+    self->mem[address] = value;
+}
+
+static void write_watchdog(mcs51_t* self, uint8_t value, uint64_t now)
+{
+    if (value == 0xE1u && self->wdt_armed)
+    {
+        self->wdt_due = now + MCS51_WDT_CYCLES;
+        mcs51_look_at(self, now);
+    }
+    self->wdt_armed = value == 0x1Eu;
+}
+
+void mcs51_write(mcs51_t* self, unsigned address, uint8_t value)
+{
+    const uint64_t now = mcs51_cycle(self);
+    uint8_t* const mem = self->mem;
+    const uint8_t old = mem[address];
+
+    if (absent(address))
+    {
+        report_absent(self, address);
+        return;
+    }
+    if (now > self->until && self->config.sync)
+    {
+        self->config.sync(self->config.ctx, now);
+    }
+    mcs51_sync(self, now);
+    switch (address)
+    {
+    case P0:
+    case P1:
+    case P2:
+    case P3:
+        mem[address] = value;
+        mcs51_port_drive(self, (address >> 4) & 3u, now);
+        return;
+    case PSW:
+        mem[PSW] = value;
+        self->cy = value >> 7;
+        self->fx = (value & 0x40u) >> 2 | (value & 0x04u) << 5;
+        return;
+    case AUXR1:
+        mem[AUXR1] = value;
+        self->dptr = value & 1u ? DP1L : DP0L;
+        return;
+    case WDTRST:
+        write_watchdog(self, value, now);
+        return;
+    case SBUF: // mem holds the receive buffer
+        mcs51_uart_sbuf(self, value, now);
+        break;
+    case TCON:
+        write_requests(self, address, value, now);
+        mcs51_level_requests(self, now);
+        break;
+    case SCON:
+        write_requests(self, address, value, now);
+        mcs51_uart_scon(self, old, now);
+        break;
+    case IE:
+    case IP:
+        mem[address] = value;
+        self->gate_at = now;
+        break;
+    default: // timers, PCON, AUXR: mcs51_sync() has counted up to here with the old value
+        mem[address] = value;
+        break;
+    }
+    mcs51_look_at(self, now);
+}

@@ -1,0 +1,152 @@
+/// \file   ports.c
+/// \brief  Ports 0 to 3: quasi-bidirectional latches, alternate functions of P3, and the order of everything that happens by itself.
+///
+/// A pin is latch AND outside. P3 inputs are sampled once a machine cycle (S5P2): a change at cycle c is seen by INT0/1, T0/1, RXD
+/// and the gates at c + 1, and one that is taken back within its cycle is not seen.
+/// SPDX-License-Identifier: MIT
+#include "../cpu/mcs51_internal.h"
+
+enum
+{
+    SAMPLED = 0x3D ///< RXD, INT0, INT1, T0, T1
+};
+
+static uint8_t drive(const mcs51_t* self, unsigned port)
+{
+    return (uint8_t)(self->mem[P0 + 0x10u * port] & (port == 3 ? self->alternate : 0xFFu));
+}
+
+uint8_t mcs51_port_pins(const mcs51_t* self, unsigned port)
+{
+    return (uint8_t)(drive(self, port) & self->outside[port]);
+}
+
+static void p3_changed(mcs51_t* self, uint64_t at)
+{
+    if (self->p3_due == MCS51_NEVER && ((mcs51_port_pins(self, 3) ^ self->p3_sampled) & SAMPLED))
+    {
+        self->p3_due = at + 1u;
+        mcs51_look_at(self, at + 1u);
+    }
+}
+
+void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at)
+{
+    const uint8_t out = drive(self, port), changed = out ^ self->out[port];
+    self->out[port] = out;
+    if (port == 3)
+    {
+        p3_changed(self, at);
+    }
+    if (changed && self->config.port)
+    {
+        self->config.port(self->config.ctx, port, out, changed, at);
+    }
+}
+
+void mcs51_alternate(mcs51_t* self, uint8_t mask, bool level, uint64_t at)
+{
+    self->alternate = (uint8_t)(level ? self->alternate | mask : self->alternate & ~mask);
+    mcs51_port_drive(self, 3, at);
+}
+
+/// A level-triggered request flag follows its pin.
+void mcs51_level_requests(mcs51_t* self, uint64_t at)
+{
+    for (unsigned n = 0; n < 2; ++n)
+    {
+        const uint8_t edge = (uint8_t)(1u << 2 * n), flag = (uint8_t)(2u << 2 * n);
+        if (self->mem[TCON] & edge)
+        {
+            continue;
+        }
+        if (self->p3_sampled >> (2 + n) & 1u)
+        {
+            self->mem[TCON] &= (uint8_t)~flag;
+        }
+        else
+        {
+            mcs51_raise(self, n ? IRQ_INT1 : IRQ_INT0, TCON, flag, at);
+        }
+    }
+}
+
+void mcs51_pins_sample(mcs51_t* self, uint64_t at)
+{
+    const uint8_t pins = mcs51_port_pins(self, 3), fell = (uint8_t)(self->p3_sampled & ~pins);
+    self->p3_due = MCS51_NEVER;
+    self->p3_sampled = pins;
+    for (unsigned n = 0; n < 2; ++n)
+    {
+        if ((fell >> (2 + n) & 1u) && (self->mem[TCON] >> 2 * n & 1u))
+        {
+            mcs51_raise(self, n ? IRQ_INT1 : IRQ_INT0, TCON, (uint8_t)(2u << 2 * n), at);
+        }
+    }
+    mcs51_level_requests(self, at);
+    mcs51_timers_fell(self, fell);
+    if (fell & P3_RXD)
+    {
+        mcs51_uart_rxd_fell(self);
+    }
+}
+
+static uint64_t earlier(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+uint64_t mcs51_periph_next(const mcs51_t* self)
+{
+    return earlier(self->p3_due, earlier(mcs51_uart_tx_time(self), mcs51_uart_rx_time(self)));
+}
+
+void mcs51_sync(mcs51_t* self, uint64_t t)
+{
+    for (uint64_t at = mcs51_periph_next(self); at <= t; at = mcs51_periph_next(self))
+    {
+        mcs51_timers_sync(self, at);
+        if (self->p3_due <= at)
+        {
+            mcs51_pins_sample(self, at);
+        }
+        else if (mcs51_uart_tx_time(self) <= at)
+        {
+            mcs51_uart_tx(self, at);
+        }
+        else
+        {
+            mcs51_uart_rx(self, at);
+        }
+    }
+    mcs51_timers_sync(self, t);
+}
+
+/// [U] An enabled external interrupt ends power-down when its pin goes low; the oscillator is taken to start at once.
+static void wake(mcs51_t* self)
+{
+    const unsigned ie = self->mem[IE], low = ~(unsigned)mcs51_port_pins(self, 3);
+    if ((self->mem[PCON] & PCON_PD) && (ie & IE_EA) && ((low >> 2 & 1u & ie) || (low >> 3 & ie >> 2 & 1u)))
+    {
+        self->mem[PCON] &= (uint8_t)~PCON_PD;
+    }
+}
+
+void mcs51_set_pins(mcs51_t* self, unsigned port, uint8_t outside, uint64_t cycle)
+{
+    if (port == 3)
+    {
+        mcs51_sync(self, cycle);
+    }
+    self->outside[port & 3u] = outside;
+    if (port == 3)
+    {
+        wake(self);
+        p3_changed(self, cycle);
+    }
+}
+
+uint8_t mcs51_port_out(const mcs51_t* self, unsigned port)
+{
+    return self->out[port & 3u];
+}

@@ -1,0 +1,182 @@
+/// \file   timers.c
+/// \brief  Timers 0 and 1 (MCS-51 hardware description, "Timer/Counters"): modes 0 to 3, gate, counter pins. Unit: machine cycle.
+///
+/// A timer costs nothing while it counts: TL and TH are brought up to date when they are read, written or due, in closed form.
+/// SPDX-License-Identifier: MIT
+#include "../cpu/mcs51_internal.h"
+
+enum
+{
+    TMOD_COUNTER = 0x04,
+    TMOD_GATE = 0x08
+};
+
+typedef struct counter_t
+{
+    uint64_t left;   ///< counts to the next overflow
+    uint64_t period; ///< counts from one overflow to the next
+} counter_t;
+
+static unsigned mode(const mcs51_t* self, unsigned n)
+{
+    return self->mem[TMOD] >> 4 * n & 3u;
+}
+
+/// With timer 0 in mode 3, TH0 has taken TR1 and TF1; timer 1 runs free unless it is in mode 3 itself, and only makes baud.
+static bool split(const mcs51_t* self)
+{
+    return mode(self, 0) == 3;
+}
+
+static bool enabled(const mcs51_t* self, unsigned n)
+{
+    const unsigned tmod = self->mem[TMOD] >> 4 * n;
+    if (n == 1 && (split(self) || mode(self, 1) == 3))
+    {
+        return mode(self, 1) != 3;
+    }
+    return (self->mem[TCON] >> (4 + 2 * n) & 1u) && (!(tmod & TMOD_GATE) || (self->p3_sampled >> (2 + n) & 1u));
+}
+
+static bool counts_cycles(const mcs51_t* self, unsigned n)
+{
+    return enabled(self, n) && !(self->mem[TMOD] >> 4 * n & TMOD_COUNTER);
+}
+
+static counter_t counter(const mcs51_t* self, unsigned n)
+{
+    const unsigned tl = self->mem[TL0 + n], th = self->mem[TH0 + n];
+    switch (mode(self, n))
+    {
+    case 0:
+        return (counter_t){0x2000u - (th << 5 | (tl & 0x1Fu)), 0x2000u};
+    case 1:
+        return (counter_t){0x10000u - (th << 8 | tl), 0x10000u};
+    case 2:
+        return (counter_t){0x100u - tl, 0x100u - th};
+    default:
+        return (counter_t){0x100u - tl, 0x100u};
+    }
+}
+
+/// Counts after the last overflow, or without one, back into the registers. Mode 0 keeps the upper bits of TL ([U]: indeterminate).
+static void store(mcs51_t* self, unsigned n, const counter_t* c)
+{
+    uint8_t* const tl = &self->mem[TL0 + n];
+    uint8_t* const th = &self->mem[TH0 + n];
+    switch (mode(self, n))
+    {
+    case 0:
+        *tl = (uint8_t)((*tl & 0xE0u) | ((0x2000u - c->left) & 0x1Fu));
+        *th = (uint8_t)((0x2000u - c->left) >> 5);
+        break;
+    case 1:
+        *tl = (uint8_t)(0x10000u - c->left);
+        *th = (uint8_t)((0x10000u - c->left) >> 8);
+        break;
+    default:
+        *tl = (uint8_t)(0x100u - c->left);
+        break;
+    }
+}
+
+/// \return overflows within k counts; the first is after *first.
+static uint64_t advance(counter_t* c, uint64_t k, uint64_t* first)
+{
+    *first = c->left;
+    if (k < c->left)
+    {
+        c->left -= k;
+        return 0;
+    }
+    k -= c->left;
+    c->left = c->period - k % c->period;
+    return 1u + k / c->period;
+}
+
+static void overflowed(mcs51_t* self, unsigned n, uint64_t at)
+{
+    mcs51_raise(self, n ? IRQ_T1 : IRQ_T0, TCON, (uint8_t)(0x20u << 2 * n), at);
+}
+
+static void count(mcs51_t* self, unsigned n, uint64_t k, uint64_t from)
+{
+    counter_t c = counter(self, n);
+    uint64_t first;
+    const uint64_t overflows = advance(&c, k, &first);
+    store(self, n, &c);
+    if (n == 1)
+    {
+        self->t1_overflows += overflows;
+    }
+    if (overflows && !(n == 1 && split(self)))
+    {
+        overflowed(self, n, from + first);
+    }
+}
+
+static bool th0_runs(const mcs51_t* self)
+{
+    return split(self) && (self->mem[TCON] & 0x40u);
+}
+
+void mcs51_timers_sync(mcs51_t* self, uint64_t t)
+{
+    if (t <= self->timer_at)
+    {
+        return;
+    }
+    const uint64_t from = self->timer_at, k = t - from;
+    self->timer_at = t;
+    for (unsigned n = 0; n < 2; ++n)
+    {
+        if (counts_cycles(self, n))
+        {
+            count(self, n, k, from);
+        }
+    }
+    if (th0_runs(self))
+    {
+        counter_t c = {0x100u - self->mem[TH0], 0x100u};
+        uint64_t first;
+        if (advance(&c, k, &first))
+        {
+            overflowed(self, 1, from + first);
+        }
+        self->mem[TH0] = (uint8_t)(0x100u - c.left);
+    }
+}
+
+void mcs51_timers_fell(mcs51_t* self, uint8_t fell)
+{
+    for (unsigned n = 0; n < 2; ++n)
+    {
+        if ((fell >> (4 + n) & 1u) && enabled(self, n) && (self->mem[TMOD] >> 4 * n & TMOD_COUNTER))
+        {
+            count(self, n, 1, self->timer_at - 1u);
+        }
+    }
+}
+
+uint64_t mcs51_timer_next(const mcs51_t* self, unsigned n)
+{
+    if (n == 1 && split(self))
+    {
+        return th0_runs(self) ? self->timer_at + 0x100u - self->mem[TH0] : MCS51_NEVER;
+    }
+    return counts_cycles(self, n) ? self->timer_at + counter(self, n).left : MCS51_NEVER;
+}
+
+uint64_t mcs51_t1_time(const mcs51_t* self, uint64_t number)
+{
+    if (number <= self->t1_overflows)
+    {
+        return self->timer_at;
+    }
+    if (!counts_cycles(self, 1))
+    {
+        return MCS51_NEVER;
+    }
+    const counter_t c = counter(self, 1);
+    return self->timer_at + c.left + (number - self->t1_overflows - 1u) * c.period;
+}

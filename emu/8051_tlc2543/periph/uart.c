@@ -1,0 +1,272 @@
+/// \file   uart.c
+/// \brief  Serial port, modes 0 to 3, bit by bit on TXD and RXD (MCS-51 hardware description, "Serial Interface").
+///
+/// The divider by 16 of the transmitter runs free: a frame starts at the next rollover after SBUF is written and TI goes up as the stop
+/// bit begins, the 10th rollover in mode 1. The receiver's divider starts at the fall of RXD; each bit is the majority of samples at
+/// ticks 7, 8, 9 of 16, and a start bit that is then high is dropped. Baud ticks: overflows of timer 1 (modes 1, 3) or two oscillator
+/// periods (mode 2), taken by two while SMOD is 0.
+/// SPDX-License-Identifier: MIT
+#include "../cpu/mcs51_internal.h"
+
+enum
+{
+    TICKS_PER_CYCLE = 6, ///< mode 2
+    SHIFT_BITS = 8       ///< mode 0
+};
+
+static unsigned uart_mode(const mcs51_t* self)
+{
+    return self->mem[SCON] >> 6;
+}
+
+/// Baud-clock ticks per 1/16 bit.
+static unsigned unit(const mcs51_t* self)
+{
+    return self->mem[PCON] & PCON_SMOD ? 1u : 2u;
+}
+
+/// Tick number at the cycle the timers are synced to.
+static uint64_t tick(const mcs51_t* self)
+{
+    const uint64_t cycle = self->timer_at - self->frozen;
+    return uart_mode(self) == 2 ? TICKS_PER_CYCLE * cycle : self->t1_overflows;
+}
+
+/// First multiple of n ticks after now.
+static uint64_t rollover(const mcs51_t* self, unsigned n)
+{
+    return (tick(self) / n + 1u) * n;
+}
+
+static uint64_t cycle_of(const mcs51_t* self, uint64_t due)
+{
+    if (due == MCS51_NEVER)
+    {
+        return MCS51_NEVER;
+    }
+    switch (uart_mode(self))
+    {
+    case 0:
+        return due + self->frozen;
+    case 2:
+        return (due + TICKS_PER_CYCLE - 1u) / TICKS_PER_CYCLE + self->frozen;
+    default:
+        return mcs51_t1_time(self, due);
+    }
+}
+
+uint64_t mcs51_uart_tx_time(const mcs51_t* self)
+{
+    return cycle_of(self, self->uart.tx_due);
+}
+
+uint64_t mcs51_uart_rx_time(const mcs51_t* self)
+{
+    return cycle_of(self, self->uart.rx_due);
+}
+
+static void rx_stop(uart_t* u)
+{
+    u->rx_state = RX_IDLE;
+    u->rx_due = MCS51_NEVER;
+}
+
+void mcs51_uart_reset(mcs51_t* self)
+{
+    self->uart.tx_due = MCS51_NEVER;
+    rx_stop(&self->uart);
+}
+
+void mcs51_uart_sbuf(mcs51_t* self, uint8_t value, uint64_t now)
+{
+    uart_t* const u = &self->uart;
+    const unsigned mode = uart_mode(self);
+    if (u->tx_due != MCS51_NEVER)
+    {
+        mcs51_report(self, EMU_GUEST_ERROR, 0, "SBUF written before TI: the octet being sent is cut off", value);
+    }
+    u->tx_bit = 0;
+    if (mode == 0)
+    {
+        u->tx_frame = value;
+        u->tx_due = now - self->frozen + 1u;
+        return;
+    }
+    const unsigned ninth = mode == 1 ? 1u : (self->mem[SCON] & SCON_TB8) / SCON_TB8;
+    u->tx_frame = (uint16_t)(1u << 10 | ninth << 9 | (unsigned)value << 1);
+    u->tx_bits = mode == 1 ? 10 : 11;
+    u->tx_due = rollover(self, 16u * unit(self));
+}
+
+/// Mode 0: one bit a cycle; the shift clock falls and rises within it, RXD is driven or sampled in between.
+static void shift_out(mcs51_t* self, uint64_t at)
+{
+    uart_t* const u = &self->uart;
+    if (u->tx_bit == SHIFT_BITS)
+    {
+        u->tx_due = MCS51_NEVER;
+        mcs51_alternate(self, P3_RXD, true, at);
+        mcs51_raise(self, IRQ_SERIAL, SCON, SCON_TI, at);
+        return;
+    }
+    const bool level = u->tx_frame >> u->tx_bit & 1u;
+    ++u->tx_bit;
+    ++u->tx_due;
+    mcs51_alternate(self, P3_RXD, level, at);
+    mcs51_alternate(self, P3_TXD, false, at);
+    mcs51_alternate(self, P3_TXD, true, at);
+}
+
+void mcs51_uart_tx(mcs51_t* self, uint64_t at)
+{
+    uart_t* const u = &self->uart;
+    if (uart_mode(self) == 0)
+    {
+        shift_out(self, at);
+        return;
+    }
+    const bool level = u->tx_frame >> u->tx_bit & 1u;
+    if (++u->tx_bit == u->tx_bits)
+    {
+        u->tx_due = MCS51_NEVER;
+        mcs51_raise(self, IRQ_SERIAL, SCON, SCON_TI, at);
+    }
+    else
+    {
+        u->tx_due += 16u * unit(self);
+    }
+    mcs51_alternate(self, P3_TXD, level, at);
+}
+
+static void received(mcs51_t* self, uint8_t octet, bool ninth, uint64_t at)
+{
+    uint8_t* const scon = &self->mem[SCON];
+    if ((*scon & SCON_SM2) && !ninth)
+    {
+        return;
+    }
+    if (*scon & SCON_RI)
+    {
+        mcs51_report(self, EMU_GUEST_ERROR, 0, "serial overrun: RI is still set, this octet is lost", octet);
+        return;
+    }
+    self->mem[SBUF] = octet;
+    *scon = (uint8_t)((*scon & ~SCON_RB8) | (ninth ? SCON_RB8 : 0));
+    mcs51_raise(self, IRQ_SERIAL, SCON, SCON_RI, at);
+}
+
+static void shift_in(mcs51_t* self, uint64_t at)
+{
+    uart_t* const u = &self->uart;
+    if (u->rx_bit == SHIFT_BITS)
+    {
+        rx_stop(u);
+        self->mem[SBUF] = (uint8_t)u->rx_frame;
+        mcs51_raise(self, IRQ_SERIAL, SCON, SCON_RI, at);
+        return;
+    }
+    ++u->rx_due;
+    mcs51_alternate(self, P3_TXD, false, at);
+    u->rx_frame = (uint16_t)(u->rx_frame | (mcs51_port_pins(self, 3) & P3_RXD) << u->rx_bit++);
+    mcs51_alternate(self, P3_TXD, true, at);
+}
+
+void mcs51_uart_rxd_fell(mcs51_t* self)
+{
+    uart_t* const u = &self->uart;
+    if (u->rx_state == RX_IDLE && uart_mode(self) != 0 && (self->mem[SCON] & SCON_REN))
+    {
+        u->rx_state = RX_WATCH;
+        u->rx_due = rollover(self, unit(self));
+    }
+}
+
+/// A bit has its three samples.
+static void rx_bit(mcs51_t* self, bool level, uint64_t at)
+{
+    uart_t* const u = &self->uart;
+    u->rx_samples = 0;
+    u->rx_votes = 0;
+    if (u->rx_bit == 0 && level)
+    {
+        rx_stop(u); // no start bit
+        return;
+    }
+    u->rx_frame = (uint16_t)(u->rx_frame | (unsigned)level << u->rx_bit);
+    if (u->rx_bit < 9)
+    {
+        ++u->rx_bit;
+        u->rx_due += 14u * unit(self);
+        return;
+    }
+    if (uart_mode(self) == 1)
+    {
+        rx_stop(u);
+    }
+    else
+    {
+        u->rx_state = RX_WAIT;
+        u->rx_due += 16u * unit(self);
+    }
+    received(self, (uint8_t)(u->rx_frame >> 1), level, at);
+}
+
+void mcs51_uart_rx(mcs51_t* self, uint64_t at)
+{
+    uart_t* const u = &self->uart;
+    const bool level = self->p3_sampled & P3_RXD;
+    switch (u->rx_state)
+    {
+    case RX_SHIFT:
+        shift_in(self, at);
+        break;
+    case RX_WATCH:
+        if (level)
+        {
+            rx_stop(u);
+            break;
+        }
+        u->rx_state = RX_SAMPLE;
+        u->rx_bit = u->rx_samples = u->rx_votes = 0;
+        u->rx_frame = 0;
+        u->rx_due += 7u * unit(self);
+        break;
+    case RX_SAMPLE:
+        u->rx_votes = (uint8_t)(u->rx_votes + level);
+        if (++u->rx_samples == 3)
+        {
+            rx_bit(self, u->rx_votes >= 2, at);
+        }
+        else
+        {
+            u->rx_due += unit(self);
+        }
+        break;
+    default:
+        rx_stop(u);
+        break;
+    }
+}
+
+void mcs51_uart_scon(mcs51_t* self, uint8_t old, uint64_t now)
+{
+    uart_t* const u = &self->uart;
+    const uint8_t scon = self->mem[SCON];
+    if ((old ^ scon) >> 6)
+    {
+        u->tx_due = MCS51_NEVER; // [U] a change of mode cuts a frame off
+        rx_stop(u);
+        mcs51_alternate(self, P3_RXD | P3_TXD, true, now);
+    }
+    if (!(scon & SCON_REN))
+    {
+        rx_stop(u);
+    }
+    else if (uart_mode(self) == 0 && !(scon & SCON_RI) && u->rx_state == RX_IDLE)
+    {
+        u->rx_state = RX_SHIFT;
+        u->rx_bit = 0;
+        u->rx_frame = 0;
+        u->rx_due = now - self->frozen + 1u;
+    }
+}
