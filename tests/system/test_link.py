@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 PERIOD_S = 0.02
-# The board's reply time-out and the host's octet time-out (firmware/README.md, ins_nav), each served once after the line is back.
+# The board's reply time-out and the host's octet time-out, each served once after the line is back.
 TIMEOUTS_S = 0.02
 BENCH_SEEDS = range(1, 6)
 

@@ -43,6 +43,9 @@ def _parser() -> argparse.ArgumentParser:
     r.add_argument("--strict", action="store_true", help="exit 3 when the firmware did something wrong")
     r.add_argument("--dds", action="store_true", help="publish the navigation states while they come")
     r.add_argument("--serial", metavar="NAME=pty[:LINK]|tcp:PORT|file:F", help="tie a UART of the board to the outside")
+    r.add_argument(
+        "--wait", action="store_true", help="with --serial: power the board when somebody opens the other end"
+    )
     _dds_options(r)
 
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
@@ -129,6 +132,8 @@ def _run_command(options: argparse.Namespace) -> int:
         if options.serial is not None:
             settings.endpoint = endpoint.open_endpoint(options.serial)
             print(f"uart: {settings.endpoint.label}", file=sys.stderr, flush=True)
+            while options.wait and not settings.endpoint.connected():
+                time.sleep(0.01)
         stop_s = options.stop_s or loaded.tables.stop_s
         with Progress(
             TextColumn("{task.description}"),

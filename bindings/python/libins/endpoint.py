@@ -16,6 +16,10 @@ class Endpoint(Protocol):
 
     label: str
 
+    def connected(self) -> bool:
+        """Whether somebody is there."""
+        ...
+
     def read(self) -> bytes:
         """What the outside has sent since the last call."""
         ...
@@ -30,14 +34,17 @@ class Endpoint(Protocol):
 
 
 class Pty:
-    """A pseudo-terminal; the board holds the master, anybody opens the slave by its path."""
+    """A pseudo-terminal; the board holds the master, anybody opens the slave by its path, and may come and go."""
 
     def __init__(self, link: str = "") -> None:
         """Open. link: a path at which a symbolic link to the slave is kept."""
-        self._master, self._slave = os.openpty()
-        tty.setraw(self._slave)
+        self._master, slave = os.openpty()
+        tty.setraw(slave)
         os.set_blocking(self._master, False)
-        self.path = os.ttyname(self._slave)
+        self.path = os.ttyname(slave)
+        os.close(slave)
+        self._poll = select.poll()
+        self._poll.register(self._master, select.POLLHUP)
         self._link = Path(link) if link else None
         if self._link is not None:
             try:
@@ -49,24 +56,28 @@ class Pty:
                 raise UsageError(f"{link}: no link to the pty can be made here: {error.strerror}") from error
         self.label = f"pty {self.path}" + (f" ({link})" if link else "")
 
+    def connected(self) -> bool:
+        """See Endpoint."""
+        return not self._poll.poll(0)
+
     def read(self) -> bytes:
         """See Endpoint."""
         try:
             return os.read(self._master, 4096)
-        except (BlockingIOError, OSError):
+        except OSError:  # nothing there, or nobody
             return b""
 
     def write(self, octets: bytes) -> None:
         """See Endpoint."""
-        with contextlib.suppress(BlockingIOError, OSError):
-            os.write(self._master, octets)
+        if self.connected():  # the kernel would keep them for whoever comes
+            with contextlib.suppress(OSError):
+                os.write(self._master, octets)
 
     def close(self) -> None:
         """See Endpoint."""
         if self._link is not None and self._link.is_symlink():
             self._link.unlink()
         os.close(self._master)
-        os.close(self._slave)
 
 
 class Tcp:
@@ -89,14 +100,18 @@ class Tcp:
         self.port = int(self._server.getsockname()[1])
         self.label = f"tcp 127.0.0.1:{self.port}"
 
-    def read(self) -> bytes:
+    def connected(self) -> bool:
         """See Endpoint."""
-        if self._client is None:
-            if not select.select([self._server], [], [], 0)[0]:
-                return b""
+        if self._client is None and select.select([self._server], [], [], 0)[0]:
             self._client, _ = self._server.accept()
             self._client.setblocking(False)
             self._client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        return self._client is not None
+
+    def read(self) -> bytes:
+        """See Endpoint."""
+        if not self.connected() or self._client is None:
+            return b""
         try:
             octets = self._client.recv(4096)
         except BlockingIOError:
@@ -131,6 +146,10 @@ class File:
         except OSError as error:
             raise UsageError(f"{path}: cannot be written: {error.strerror}") from error
         self.label = f"file {path}"
+
+    def connected(self) -> bool:
+        """See Endpoint."""
+        return True
 
     def read(self) -> bytes:
         """See Endpoint."""
