@@ -112,10 +112,10 @@ static int create_domain(ins_dds_t* self, const ins_dds_config_t* cfg)
     }
     if (strstr(self->log.text, "interface") != NULL)
     {
-        return dds_fail(
-            INS_DDS_E_NETWORK,
-            "no network interface that DDS can use (%s): for the loopback configuration run `ip link set lo up`",
-            self->log.text);
+        return dds_fail(INS_DDS_E_NETWORK, "no network interface that DDS can use (%s): %s", self->log.text,
+                        cfg->network == INS_DDS_LOOPBACK
+                            ? "run `ip link set lo up`"
+                            : "name one of this machine (`ip link`), or use the loopback configuration");
     }
     return cfg->network == INS_DDS_LOOPBACK ? refused(self, "domain", domain)
                                             : dds_fail(INS_DDS_E_ARGUMENT, "DDS refused its configuration (%s): %s",
@@ -151,7 +151,7 @@ static int create_entities(ins_dds_t* self, const ins_dds_config_t* cfg)
     self->topic = dds_create_topic(self->participant, &libins_NavState_desc, cfg->topic, NULL, NULL);
     if (self->topic < 0)
     {
-        return refused(self, "topic", self->topic);
+        return refused(self, "topic (letters, digits, _ and / may make its name)", self->topic);
     }
     if (cfg->publishes)
     {

@@ -138,7 +138,7 @@ int main(int argc, char** argv)
     receiver_t receiver;
     memset(&receiver, 0, sizeof receiver);
     receiver.fd = port_open(options.device, options.baud, error, sizeof error);
-    if (receiver.fd < 0 && !options.wait)
+    if (receiver.fd == PORT_BAD || (receiver.fd < 0 && !options.wait))
     {
         fprintf(stderr, "ins-navd: %s\n", error);
         return 2;

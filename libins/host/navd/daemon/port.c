@@ -61,6 +61,12 @@ static const char* remedy(int reason)
     }
 }
 
+static int absent(int reason)
+{
+    return reason == ENOENT || reason == ENODEV || reason == ENXIO || reason == EIO || reason == ECONNREFUSED ||
+           reason == ETIMEDOUT || reason == EHOSTUNREACH || reason == ENETUNREACH;
+}
+
 static int fail(int fd, const char* device, int reason, char* error, size_t size)
 {
     if (fd >= 0)
@@ -68,7 +74,7 @@ static int fail(int fd, const char* device, int reason, char* error, size_t size
         (void)close(fd);
     }
     (void)snprintf(error, size, "cannot open %s: %s%s", device, strerror(reason), remedy(reason));
-    return -1;
+    return absent(reason) ? PORT_ABSENT : PORT_BAD;
 }
 
 static int open_serial(const char* device, long baud, char* error, size_t size)
@@ -95,7 +101,7 @@ static int open_serial(const char* device, long baud, char* error, size_t size)
     {
         (void)close(fd);
         (void)snprintf(error, size, "cannot open %s: it has no rate of %ld Bd", device, baud);
-        return -1;
+        return PORT_BAD;
     }
     return fd;
 }
@@ -129,7 +135,7 @@ static int open_tcp(const char* device, char* error, size_t size)
     if (colon == NULL || colon == begin || colon[1] == '\0' || (size_t)(colon - begin) >= sizeof host)
     {
         (void)snprintf(error, size, "cannot open %s: write tcp:HOST:PORT", device);
-        return -1;
+        return PORT_BAD;
     }
     memcpy(host, begin, (size_t)(colon - begin));
     host[colon - begin] = '\0';
@@ -139,7 +145,7 @@ static int open_tcp(const char* device, char* error, size_t size)
     if (unknown != 0)
     {
         (void)snprintf(error, size, "cannot open %s: %s", device, gai_strerror(unknown));
-        return -1;
+        return PORT_BAD;
     }
     int reason = 0;
     int fd = -1;
@@ -158,7 +164,7 @@ static int open_tcp(const char* device, char* error, size_t size)
     {
         (void)snprintf(error, size, "cannot open %s: %s; is the other end running? --wait waits for it", device,
                        strerror(reason));
-        return -1;
+        return absent(reason) ? PORT_ABSENT : PORT_BAD;
     }
     const int one = 1;
     (void)setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &one, sizeof one); // an octet of reply must not wait for more

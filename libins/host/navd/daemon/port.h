@@ -5,9 +5,13 @@
 #define NAVD_PORT_H_INCLUDED
 #include <stddef.h>
 
+#define PORT_ABSENT (-1) ///< not there now, may come
+#define PORT_BAD    (-2) ///< there is something wrong with it
+
 /// 1 if this system has the rate.
 int port_baud_known(long baud);
-/// \param[in] device a path, or tcp:HOST:PORT (then baud is not used). \return a non-blocking descriptor; -1 with the reason in error.
+/// \param[in] device a path, or tcp:HOST:PORT (then baud is not used). \return a non-blocking descriptor; PORT_ABSENT or PORT_BAD with the
+/// reason in error.
 int port_open(const char* device, long baud, char* error, size_t size);
 
 #endif // NAVD_PORT_H_INCLUDED

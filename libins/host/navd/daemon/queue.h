@@ -19,8 +19,8 @@ typedef struct queue_t
     uint32_t size;
     uint32_t head; ///< of the receiving thread
     uint32_t tail; ///< of the computing thread
-    uint64_t got;
-    _Atomic uint64_t put;
+    uint32_t got;  ///< modulo 2^32, as put
+    atomic_uint put;
     sem_t filled;
     sem_t free;
 } queue_t;

@@ -23,8 +23,6 @@ ins_status_t ins_nav_link_init(ins_nav_link_t* self, const ins_nav_config_t* cfg
     hs.seq = cfg->seq;
     hs.retries = cfg->retries;
     hs.octet_timeout = cfg->octet_timeout_ms;
-    hs.reply_timeout =
-        (uint16_t)(cfg->octet_timeout_ms + 1u); // the board's; this side only wants it longer than its own
     return ins_hs_host_init(&self->hs, &hs);
 }
 
