@@ -8,11 +8,8 @@
 #define NORM2_MIN INS_C(1e-30)
 #define NORM2_MAX INS_C(1e30)
 #define DCM_TOL   INS_C(1e-3)
-#ifdef INS_REAL_FLOAT
-#define POLE_COS (8 * FLT_EPSILON)
-#else
-#define POLE_COS (8 * DBL_EPSILON) ///< cos(pitch) at and below this is rounding noise
-#endif
+#define POLE_TOL  (4 * INS_EPSILON) ///< of sqrt(2): here one of yaw + roll, yaw - roll is rounding noise
+#define PI        INS_C(3.14159265358979324)
 
 static ins_real norm2(const ins_real q[4])
 {
@@ -89,23 +86,33 @@ void ins_quat_from_euler(const ins_real euler[3], ins_real q_nb[4])
     q_nb[3] = sy * cp * cr - cy * sp * sr;
 }
 
+static ins_real wrap(ins_real angle)
+{
+    return angle > PI ? angle - 2 * PI : angle < -PI ? angle + 2 * PI : angle;
+}
+
 void ins_quat_to_euler(const ins_real q_nb[4], ins_real euler[3])
 {
-    ins_real c[9];
-    ins_quat_to_dcm(q_nb, c);
-    // atan2 for the pitch too: asin of a sine near 1 loses half of the digits, and needs a clamp.
-    const ins_real cos_pitch = ins_sqrt(c[0] * c[0] + c[3] * c[3]);
-    euler[1] = ins_atan2(-c[6], cos_pitch);
-    if (cos_pitch <= POLE_COS)
+    // With c, s = cos, sin of half the pitch:
+    //   w + y, z - x = (c + s) cos, sin of half (yaw - roll);   w - y, z + x = (c - s) cos, sin of half (yaw + roll)
+    // so nothing cancels near the poles, where an arc sine of the direction cosines loses half of the digits.
+    const ins_real up[2] = {q_nb[0] + q_nb[2], q_nb[3] - q_nb[1]};
+    const ins_real down[2] = {q_nb[0] - q_nb[2], q_nb[3] + q_nb[1]};
+    const ins_real up_norm = ins_sqrt(up[0] * up[0] + up[1] * up[1]);
+    const ins_real down_norm = ins_sqrt(down[0] * down[0] + down[1] * down[1]);
+    ins_real half_difference = ins_atan2(up[1], up[0]);
+    ins_real half_sum = ins_atan2(down[1], down[0]);
+    if (down_norm <= POLE_TOL)
     {
-        euler[0] = 0;
-        euler[2] = ins_atan2(-c[1], c[4]);
+        half_sum = half_difference;
     }
-    else
+    if (up_norm <= POLE_TOL)
     {
-        euler[0] = ins_atan2(c[7], c[8]);
-        euler[2] = ins_atan2(c[3], c[0]);
+        half_difference = half_sum;
     }
+    euler[0] = wrap(half_sum - half_difference);
+    euler[1] = 2 * ins_atan2(up_norm - down_norm, up_norm + down_norm);
+    euler[2] = wrap(half_sum + half_difference);
 }
 
 void ins_quat_to_dcm(const ins_real q_nb[4], ins_real C_nb[9])

@@ -15,6 +15,7 @@ extern "C" {
 typedef float ins_real;
 #define INS_C(x)      x##f
 #define INS_TOL(d, f) (f)
+#define INS_EPSILON   FLT_EPSILON
 #else
 #if DBL_MANT_DIG < 53
 #error "double has fewer than 53 bits here (AVR, SDCC, C28x COFF): build with -DINS_REAL_FLOAT"
@@ -22,6 +23,7 @@ typedef float ins_real;
 typedef double ins_real;
 #define INS_C(x)      x
 #define INS_TOL(d, f) (d)
+#define INS_EPSILON   DBL_EPSILON
 #endif
 
 #if defined(__GNUC__) && !defined(__SDCC)

@@ -34,16 +34,16 @@ extern "C" {
 #define INS_HS_ACCEPT  0x00u
 #define INS_HS_RESEND  0xFFu
 
+/// Both sides take one; a member that the other side alone uses may be 0. reply_timeout must be longer than octet_timeout and one
+/// exchange of octets, so that the host is back in idle when the board asks again.
 typedef struct ins_hs_config_t
 {
-    uint_least8_t block_len; ///< 1..INS_HS_BLOCK_MAX octets; at least 4 with seq.
-    uint_least8_t seq;       ///< 1: sequence number in the spare high nibbles of X and Y.
+    uint_least8_t block_len; ///< 1..INS_HS_BLOCK_MAX octets; at least 4 with seq
+    uint_least8_t seq;       ///< 1: sequence number in the spare high nibbles of X and Y
     uint_least8_t
-        retries; ///< Board: resends of AA, and of the block, before the block is given up. Host: FFs before it waits for AA again.
-    uint16_t
-        reply_timeout; ///< Board: wait for BB, 00 or FF, from the moment ins_hs_board_tx() gave the octet before. Host: 0 or the same.
-    uint16_t
-        octet_timeout; ///< Host: longest silence inside a block. Must be shorter than the board's reply_timeout. Board: not used.
+        retries; ///< board: frames and requests sent again for one block; host: FFs, less one, for one request
+    uint16_t reply_timeout; ///< board: wait for BB, 00 or FF, from when ins_hs_board_tx() gave the octet before
+    uint16_t octet_timeout; ///< host: longest silence inside a block
 } ins_hs_config_t;
 
 /// Board side (A). Start with ins_hs_board_init(). Members are private, the counters readable.
@@ -54,7 +54,6 @@ typedef struct ins_hs_board_t
     uint_least8_t tries;
     uint_least8_t next; ///< next octet of the frame to transmit
     uint_least8_t sum;
-    uint_least8_t seq;
     uint16_t since;
     ins_octet_t block[INS_HS_BLOCK_MAX];
     uint16_t sent;     ///< blocks acknowledged with 00

@@ -3,7 +3,8 @@
 ///
 /// A quaternion is {w, x, y, z}, Hamilton; q_nb turns body vectors into navigation: v_n = q_nb v_b q_nb*. docs/conventions.md is law.
 /// C_nb[9] is row-major in the same sense. euler = {roll, pitch, yaw} [rad], the ZYX sequence: yaw first, then pitch, then roll.
-/// Source: J. B. Kuipers, Quaternions and Rotation Sequences, 1999; S. W. Shepperd, J. Guid. Control 1(3), 1978 (from_dcm).
+/// Source: J. B. Kuipers, Quaternions and Rotation Sequences, 1999; S. W. Shepperd, J. Guid. Control 1(3), 1978 (from_dcm);
+/// E. Bernardes, S. Viollet, PLoS ONE 17(11), 2022, e0276302 (to_euler).
 /// SPDX-License-Identifier: MIT
 #ifndef INS_QUAT_H_INCLUDED
 #define INS_QUAT_H_INCLUDED
@@ -33,7 +34,7 @@ INS_API ins_status_t ins_quat_from_rotvec(const ins_real phi[3], ins_real q[4]);
 
 /// Uses libm's sin and cos.
 INS_API void ins_quat_from_euler(const ins_real euler[3], ins_real q_nb[4]);
-/// Uses libm's atan2 and asin, for display and comparison. roll, yaw in [-pi, pi], pitch in [-pi/2, pi/2]. At a pole of pitch only
+/// Uses libm's atan2, for display and comparison. roll, yaw in [-pi, pi], pitch in [-pi/2, pi/2]. At a pole of pitch only
 /// yaw - roll (nose up) or yaw + roll (nose down) has a meaning: there the roll returned is 0, so no angle is noise.
 INS_API void ins_quat_to_euler(const ins_real q_nb[4], ins_real euler[3]);
 
