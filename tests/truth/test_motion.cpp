@@ -313,6 +313,10 @@ TEST(motion, table_refuses_bad_rows_by_number)
     table = swing(9);
     table.yaw[3] -= 2.0 * INS_TRUTH_PI;
     refused(table, "row 4: yaw steps by");
+    table.yaw = {0.0, 0.0, 3.2, 3.2, 3.2, 3.2, 3.2, 3.2, 3.2};
+    refused(table, "row 3: yaw steps by 3.2 rad");
+    table.yaw = {0.0, 0.0, 3.1, 0.0, -3.1, 0.0, 0.0, 0.0, 0.0};
+    EXPECT_NE(from_table(table, 0.0, why, sizeof why), nullptr) << why;
     table = swing(9);
     table.roll[8] = infinity;
     refused(table, "row 9: roll is inf");
