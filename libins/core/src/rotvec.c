@@ -1,6 +1,7 @@
 /// \file   rotvec.c
 /// \brief  Rotation vector to quaternion at any angle. Unit: rad.
 /// SPDX-License-Identifier: MIT
+#include "ins/ins_math.h"
 #include "ins/quat.h"
 #include "ins/vec.h"
 #include "rotvec_internal.h"
@@ -13,12 +14,13 @@ void ins_half_angle(ins_real u, ins_real* half_cos, ins_real* half_sinc_out)
         u *= INS_C(0.25);
         halvings++;
     }
-    ins_real c = HALF_COS_0 + half_cos_rest(u);
+    // Cosines from sines throughout: each squaring doubles an error in angle, and a small angle's cosine hardly knows it.
     ins_real s = half_sinc(u);
+    ins_real c = ins_sqrt(1 - s * s * u);
     for (; halvings > 0; halvings--)
     {
-        // {c, s phi}^2 = {c^2 - s^2 u, 2 c s phi}, and 2 phi is the next angle.
-        const ins_real square = c * c - s * s * u;
+        // {c, s phi}^2 = {1 - 2 s^2 u, 2 c s phi}, and 2 phi is the next angle.
+        const ins_real square = 1 - 2 * s * s * u;
         s = c * s;
         c = square;
         u *= 4;
