@@ -41,7 +41,7 @@ void ins_gyro_cgl53_config(ins_gyro_config_t* config)
     // Assumptions, all of them; no text of a CG-L53 data sheet was found.
     const double sensitivity = 0.67e-3 / DEG; // Murata ENC-03R: 0.67 mV/(deg/s)
     const double gain = 40.0;                 // chosen: +-93 deg/s over 0 .. 5 V
-    const double bandwidth_hz = 50.0;         // Murata ENC-03R: response to 50 Hz
+    const double bandwidth_hz = 50.0;         // chosen: a common figure for small ceramic gyros
     const double noise_density = 0.02 * DEG;  // chosen, of the order of vibrating ceramic gyros
     const double drift = 0.001 * DEG;         // chosen: 3.6 deg/s in an hour of warming up
     fill(config, sensitivity, gain, bandwidth_hz, noise_density, drift);

@@ -1,6 +1,6 @@
 /// \file   motion.c
-/// \brief  Closed forms of attitude and body rate; Gauss-Legendre for the increments. Frames b and n, n inertial; rad,
-/// rad/s, s. SPDX-License-Identifier: MIT
+/// \brief  Closed forms of attitude and body rate; Gauss-Legendre for the increments. Frames b and n; rad, s.
+/// SPDX-License-Identifier: MIT
 #include "ins_truth/elementary.h"
 #include "motion_internal.h"
 #include <math.h>

@@ -1,7 +1,6 @@
 /// \file   spline.c
-/// \brief  Natural cubic spline: second derivatives from the tridiagonal system of continuous slopes, zero at both ends
-/// (de Boor,
-///         A Practical Guide to Splines, 1978, chapter IV).
+/// \brief  Natural cubic spline: second derivatives from the tridiagonal system of continuous slopes, zero at both
+///         ends (de Boor, A Practical Guide to Splines, 1978, chapter IV).
 /// SPDX-License-Identifier: MIT
 #include "ins_truth/elementary.h"
 #include "spline_internal.h"

@@ -1,4 +1,5 @@
 /// \file   why.c
+/// \brief  Refusals in words.
 /// SPDX-License-Identifier: MIT
 #include "why_internal.h"
 #include <stdarg.h>
