@@ -1,4 +1,4 @@
-"""ins-navd on the emulated board's pty and TCP port, native and as an ARM binary under qemu-arm; DDS to other processes."""
+"""ins-navd on the emulated board's pty and TCP port, native and as ARM code under qemu-arm; DDS between processes."""
 
 import contextlib
 import json

@@ -62,7 +62,8 @@ def motion_of(scenario: Scenario) -> Any:
     try:
         if motion.kind == "csv":
             assert scenario.csv is not None
-            t, yaw, pitch, roll = (column.tolist() for column in scenario.csv.T)
+            t = scenario.csv[:, 0].tolist()
+            yaw, pitch, roll = (column.tolist() for column in np.unwrap(scenario.csv[:, 1:], axis=0).T)
             return _run.motion_table(t, yaw, pitch, roll, motion.ramp_s)
         if motion.kind == "coning":
             return _run.motion_coning(motion.half_angle_rad, motion.frequency_hz, motion.ramp_s)
