@@ -49,7 +49,7 @@ ins_status_t ins_nav_config_attitude(ins_nav_config_t* cfg, const double euler_r
     }
     ins_quat_mul(q[2], q[1], cfg->q_nb);
     ins_quat_mul(cfg->q_nb, q[0], cfg->q_nb);
-    return INS_OK;
+    return ins_quat_normalise(cfg->q_nb);
 }
 
 const char* ins_nav_config_problem(const ins_nav_config_t* cfg)

@@ -27,14 +27,20 @@ static void put(writer_t* self, const char* format, ...)
     self->room -= (size_t)length;
 }
 
-/// A decimal comma of the caller's locale becomes the point that JSON wants.
+/// A decimal comma of the caller's locale becomes the point that JSON wants; a whole number gets one, or -0 would be read as 0.
 static void put_real(writer_t* self, double value)
 {
     char* const begin = self->at;
     put(self, "%.17g", value);
+    int whole = self->at > begin;
     for (char* c = begin; c < self->at; c++)
     {
         *c = *c == ',' ? '.' : *c;
+        whole = whole && *c != '.' && *c != 'e';
+    }
+    if (whole)
+    {
+        put(self, ".0");
     }
 }
 
