@@ -1,0 +1,217 @@
+/// The exchange under faults: a silent host, a wrong baud, noise, lost octets, a cut line. Seeds are printed.
+/// SPDX-License-Identifier: MIT
+#include "acq_rig.hpp"
+#include <cstdio>
+#include <cstdlib>
+
+namespace
+{
+constexpr uint64_t kSeed = 2010;
+constexpr double kPeriodMs = 20.0;
+/// Longest wait in the default image: 4 tries of 8 ticks of 1.11 ms for AA, once more for the block; then an exchange.
+constexpr double kTimeoutsMs = 2 * 4 * 9 * 1.1112 + 11.0;
+
+double run_s()
+{
+    return std::getenv("INS_BENCH") != nullptr ? 600.0 : 30.0;
+}
+
+/// Blocks that are not what was sampled, though their sum agreed.
+unsigned corrupt_accepted(const acq_rig_t& rig)
+{
+    unsigned wrong = 0;
+    uint64_t number = 0;
+    for (const block_t& b : rig.blocks)
+    {
+        number += static_cast<uint8_t>(b.seq - static_cast<uint8_t>(number));
+        bool same = number >= 1 && 4 * number <= rig.samples.size();
+        for (unsigned channel = 0; channel < 3 && same; channel++)
+        {
+            same = b.codes[channel] == rig.sample(number - 1, channel).code;
+        }
+        wrong += !same;
+    }
+    return wrong;
+}
+
+/// Of all samples taken: sent, lost, and at most one on its way and one that waits.
+void expect_adding_up(acq_rig_t& rig)
+{
+    const unsigned left = (rig.sampled() - rig.sent() - rig.lost()) & 0xFFFFu;
+    EXPECT_LE(left, 2u) << "sampled " << rig.sampled() << ", sent " << rig.sent() << ", lost " << rig.lost();
+    // The host may hold a block whose 00 was lost and which the board then gave up, never the other way round.
+    EXPECT_GE(rig.host.accepted, rig.sent());
+    EXPECT_LE(rig.host.accepted, rig.sent() + rig.given_up() + 1);
+}
+
+double ramp(unsigned channel, int64_t t)
+{
+    return 0.5 + 0.5 * channel + 1e-13 * static_cast<double>(t % (30 * EMU_PS_PER_S));
+}
+
+TEST(acq_faults, a_silent_host_costs_samples_and_nothing_else)
+{
+    rig_config_t config;
+    config.volts = ramp;
+    acq_rig_t rig(config);
+    rig.run_to_ms(505.0);
+    const size_t before = rig.blocks.size();
+    EXPECT_EQ(before, 24u);
+    rig.silent = true;
+    rig.run_to_ms(2505.0);
+    EXPECT_EQ(rig.blocks.size(), before);
+    rig.silent = false;
+    rig.run_to_ms(2505.0 + kPeriodMs + kTimeoutsMs);
+    ASSERT_GT(rig.blocks.size(), before + 1) << "resumed within a period and the time-outs";
+    const block_t &first = rig.blocks[before], &second = rig.blocks[before + 1];
+    EXPECT_EQ(first.seq, (before + 1 + first.gap) % 256) << "the gap is known";
+    EXPECT_LT(static_cast<double>(second.at - rig.sample(before + first.gap + 1 + second.gap, 0).at) * 1e-9,
+              2 * kPeriodMs)
+        << "the newest sample replaced those that waited";
+    rig.run_to_ms(4000.0);
+    EXPECT_EQ(corrupt_accepted(rig), 0u);
+    EXPECT_EQ(rig.sampled(), 199u);
+    EXPECT_NEAR(rig.lost(), 100, 4);
+    EXPECT_GT(rig.given_up(), 40u);
+    expect_adding_up(rig);
+}
+
+TEST(acq_faults, a_host_at_another_baud_hears_errors_and_the_board_runs_on)
+{
+    for (const double baud : {4800.0, 10400.0, 19200.0, 115200.0})
+    {
+        rig_config_t config;
+        config.host_baud = baud;
+        acq_rig_t rig(config);
+        rig.run_to_ms(4000.0);
+        EXPECT_EQ(rig.sampled(), 199u) << baud;
+        EXPECT_EQ(rig.sent(), 0u) << baud;
+        EXPECT_EQ(rig.host.accepted, 0u) << baud;
+        EXPECT_GT(rig.end.framing_errors + rig.host.stray + rig.host.timeouts, 50u) << baud;
+        EXPECT_GT(rig.given_up(), 50u) << baud;
+        expect_adding_up(rig);
+    }
+}
+
+struct fault_t
+{
+    const char* name;
+    double bit_error, octet_loss;
+    double accepted_least; ///< of the samples taken
+};
+
+class acq_fault : public testing::TestWithParam<fault_t>
+{
+};
+
+TEST_P(acq_fault, is_survived_and_counted)
+{
+    const fault_t& f = GetParam();
+    rig_config_t config;
+    config.volts = ramp;
+    config.up = {config.baud, f.bit_error, f.octet_loss, nullptr, 0, kSeed};
+    config.down = {config.baud, f.bit_error, f.octet_loss, nullptr, 0, kSeed + 1};
+    acq_rig_t rig(config);
+    rig.run_to_ms(run_s() * 1e3);
+    uint64_t known = 0;
+    emu_time_t last = 0, longest = 0;
+    for (const block_t& b : rig.blocks)
+    {
+        known += 1u + b.gap;
+        longest = std::max(longest, b.at - last);
+        last = b.at;
+    }
+    const unsigned wrong = corrupt_accepted(rig);
+    std::printf(
+        "%s, seed %llu: %zu scans, accepted %u, lost %u, resent %u, duplicates %u, corrupt %u, timeouts %u, stray %u, "
+        "slots inverted %llu, octets swallowed %llu, corrupt accepted %u, longest pause %.1f ms\n",
+        f.name, static_cast<unsigned long long>(kSeed), rig.samples.size() / 4, rig.host.accepted, rig.lost(),
+        rig.resent(), rig.host.duplicates, rig.host.corrupt, rig.host.timeouts, rig.host.stray,
+        static_cast<unsigned long long>(rig.up.slots_inverted + rig.down.slots_inverted),
+        static_cast<unsigned long long>(rig.up.octets_swallowed + rig.down.octets_swallowed), wrong,
+        static_cast<double>(longest) * 1e-9);
+    EXPECT_GT(rig.resent() + rig.host.corrupt, 0u) << "there were faults";
+    EXPECT_GE(rig.host.accepted, f.accepted_least * static_cast<double>(rig.samples.size()) / 4);
+    EXPECT_LE(longest, static_cast<emu_time_t>((kPeriodMs + kTimeoutsMs) * 1e9));
+    EXPECT_LE(wrong, rig.blocks.size() / 100);
+    if (wrong == 0)
+    {
+        EXPECT_EQ(rig.host.accepted, rig.blocks.size());
+        EXPECT_LE(rig.samples.size() / 4 - known, 3u) << "accepted and gaps are all samples";
+    }
+    expect_adding_up(rig);
+}
+
+INSTANTIATE_TEST_SUITE_P(faults, acq_fault,
+                         testing::Values(fault_t{"bit_errors_1e4", 1e-4, 0.0, 0.97},
+                                         fault_t{"octet_loss_1e3", 0.0, 1e-3, 0.97},
+                                         fault_t{"both_tenfold", 1e-3, 1e-2, 0.6}),
+                         [](const auto& p) { return std::string(p.param.name); });
+
+TEST(acq_faults, a_cut_of_two_seconds_ends_within_a_period_and_the_time_outs)
+{
+    const emu_serial_cut_t cuts[] = {{1003 * kMs, 3003 * kMs}, {4010 * kMs, 6010 * kMs}, {7017 * kMs, 9017 * kMs}};
+    for (const int which : {1, 2, 3})
+    {
+        rig_config_t config;
+        config.volts = ramp;
+        if ((which & 1) != 0)
+        {
+            config.up = {config.baud, 0.0, 0.0, cuts, 3, kSeed};
+        }
+        if ((which & 2) != 0)
+        {
+            config.down = {config.baud, 0.0, 0.0, cuts, 3, kSeed};
+        }
+        acq_rig_t rig(config);
+        rig.run_to_ms(10000.0);
+        for (const emu_serial_cut_t& cut : cuts)
+        {
+            unsigned during = 0;
+            double resumed_ms = 1e9;
+            for (const block_t& b : rig.blocks)
+            {
+                during += b.at > cut.from + 11 * kMs && b.at < cut.to;
+                if (b.at >= cut.to)
+                {
+                    resumed_ms = static_cast<double>(b.at - cut.to) * 1e-9;
+                    break;
+                }
+            }
+            // With only the way back cut, the host cannot answer: nothing passes either.
+            EXPECT_LE(during, 1u) << which;
+            EXPECT_LE(resumed_ms, kPeriodMs + kTimeoutsMs) << which;
+            std::printf("line %d cut to %.0f ms: next block after %.1f ms\n", which, static_cast<double>(cut.to) * 1e-9,
+                        resumed_ms);
+        }
+        EXPECT_EQ(corrupt_accepted(rig), 0u);
+        EXPECT_NEAR(rig.lost(), 300, 12);
+        expect_adding_up(rig);
+    }
+}
+
+TEST(acq_faults, one_seed_one_run)
+{
+    std::vector<emu_time_t> first;
+    uint64_t instructions = 0;
+    for (const uint64_t seed : {kSeed, kSeed, kSeed + 7})
+    {
+        rig_config_t config;
+        config.up = {config.baud, 1e-3, 1e-3, nullptr, 0, seed};
+        config.down = {config.baud, 1e-3, 1e-3, nullptr, 0, seed + 1};
+        acq_rig_t rig(config);
+        rig.run_to_ms(3000.0);
+        std::vector<emu_time_t> at;
+        for (const block_t& b : rig.blocks)
+        {
+            at.push_back(b.at);
+        }
+        if (first.empty())
+        {
+            first = at;
+            instructions = mcs51_instructions(rig.cpu);
+        }
+        EXPECT_EQ(at == first && instructions == mcs51_instructions(rig.cpu), seed == kSeed) << "seed " << seed;
+    }
+}
+} // namespace
