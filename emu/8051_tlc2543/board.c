@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PORTS 4
+#define NETS (sizeof pins / sizeof pins[0])
 
 static const struct
 {
@@ -12,16 +12,6 @@ static const struct
     uint8_t port, bit;
 } pins[] = {{"EOC", 1, 0}, {"I/O CLOCK", 1, 1}, {"DATA IN", 1, 2}, {"DATA OUT", 1, 3},
             {"/CS", 1, 4}, {"RXD", 3, 0},       {"TXD", 3, 1}};
-
-enum
-{
-    EOC,
-    IO_CLOCK,
-    DATA_IN,
-    DATA_OUT,
-    CS,
-    NETS = sizeof pins / sizeof pins[0]
-};
 
 typedef struct net_t
 {
@@ -38,7 +28,7 @@ struct acq_board_t
     mcs51_t* cpu;
     tlc2543_t* adc;
     net_t nets[NETS];
-    uint8_t outside[PORTS];
+    uint8_t outside[4];
 };
 
 void acq_board_default_config(acq_board_config_t* config)
@@ -50,10 +40,9 @@ void acq_board_default_config(acq_board_config_t* config)
 static void net_changed(void* ctx, bool level, emu_time_t at)
 {
     const net_t* const net = ctx;
-    acq_board_t* const self = net->board;
-    uint8_t* const outside = &self->outside[net->port];
+    uint8_t* const outside = &net->board->outside[net->port];
     *outside = (uint8_t)(level ? *outside | net->mask : *outside & ~net->mask);
-    mcs51_set_pins(self->cpu, net->port, *outside, emu_clock_tick(&self->clock, at));
+    mcs51_set_pins(net->board->cpu, net->port, *outside, emu_clock_tick(&net->board->clock, at));
 }
 
 static void sync_to(void* ctx, uint64_t cycle)
@@ -84,11 +73,8 @@ static void event_earlier(void* ctx, emu_time_t at)
 
 acq_board_t* acq_board_create(const acq_board_config_t* config, emu_sched_t* sched)
 {
-    if (config->crystal_hz < 1 || config->crystal_hz > 1000000000)
-    {
-        return NULL;
-    }
-    acq_board_t* const self = calloc(1, sizeof *self);
+    const bool crystal = config->crystal_hz >= 1 && config->crystal_hz <= 1000000000;
+    acq_board_t* const self = crystal ? calloc(1, sizeof *self) : NULL;
     if (self == NULL)
     {
         return NULL;
@@ -108,9 +94,9 @@ acq_board_t* acq_board_create(const acq_board_config_t* config, emu_sched_t* sch
         emu_wire_drive(&net->wire, net->driver, EMU_WEAK1, sched->now);
         emu_wire_watch(&net->wire, net_changed, net);
     }
-    net_t* const n = self->nets;
-    self->adc = tlc2543_create(&config->adc, sched, &n[EOC].wire, &n[IO_CLOCK].wire, &n[DATA_IN].wire,
-                               &n[DATA_OUT].wire, &n[CS].wire);
+    self->adc =
+        tlc2543_create(&config->adc, sched, acq_board_wire(self, "EOC"), acq_board_wire(self, "I/O CLOCK"),
+                       acq_board_wire(self, "DATA IN"), acq_board_wire(self, "DATA OUT"), acq_board_wire(self, "/CS"));
     if (self->cpu == NULL || self->adc == NULL)
     {
         acq_board_destroy(self);
@@ -125,10 +111,7 @@ void acq_board_destroy(acq_board_t* self)
 {
     if (self != NULL)
     {
-        if (self->sched->earlier_ctx == self)
-        {
-            self->sched->earlier = NULL;
-        }
+        self->sched->earlier = NULL;
         tlc2543_destroy(self->adc);
         mcs51_destroy(self->cpu);
         free(self);

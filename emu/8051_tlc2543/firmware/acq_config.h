@@ -10,7 +10,7 @@
 // ACQ_TICKS         timer 0 ticks in a period, 1..255
 // ACQ_TICK_CYCLES   machine cycles in a tick; period = ACQ_TICKS * ACQ_TICK_CYCLES
 // ACQ_BAUD          8N1
-// ACQ_BLOCK_LEN     octets in a block: 6 (XH XL YH YL ZH ZL), or up to 32, zeros after the sixth
+// ACQ_BLOCK_LEN     octets in a block: 6 (XH XL YH YL ZH ZL), or up to 14, zeros after the sixth
 // ACQ_SEQ           1: sequence number in the spare high nibbles
 // ACQ_REPLY_TICKS   longest wait for the host's BB, 00 or FF
 // ACQ_RETRIES       resends before a sample is given up
@@ -23,8 +23,8 @@
 #if ACQ_TICKS * ACQ_TICK_CYCLES * 625 != ACQ_PERIOD_US * 576
 #error "ACQ_PERIOD_US is not ACQ_TICKS * ACQ_TICK_CYCLES machine cycles of 12 / 11.0592 us: sampling would drift"
 #endif
-#if ACQ_BLOCK_LEN < 6 || ACQ_BLOCK_LEN > 32
-#error "ACQ_BLOCK_LEN: 6 to 32 octets, three 16-bit codes and then zeros"
+#if ACQ_BLOCK_LEN < 6 || ACQ_BLOCK_LEN > 14
+#error "ACQ_BLOCK_LEN: 6 octets, three 16-bit codes, to 14, which is what 128 octets of RAM hold"
 #endif
 
 /// Timer 1, mode 2, SMOD = 1: 57,600 Bd / (256 - TH1).

@@ -6,6 +6,7 @@ if(NOT INS_SDCC)
   message(FATAL_ERROR "SDCC, which builds the 8051 firmware, is missing. Install it: sudo apt-get install --no-install-recommends sdcc "
                       "(or configure with -DINS_BUILD_EMU=OFF)")
 endif()
+
 add_custom_target(firmware_8051 ALL)
 
 function(add_acq_firmware name period_us baud block_len seq)
@@ -50,7 +51,7 @@ function(add_acq_firmware name period_us baud block_len seq)
     BYPRODUCTS ${out}/${name}.map ${out}/${name}.mem
     COMMAND ${INS_SDCC} ${flags} -c ${here}/acq.c -o ${work}/acq.rel
     COMMAND ${INS_SDCC} ${flags} -c ${core}/src/handshake_board.c -o ${work}/handshake_board.rel
-    COMMAND ${INS_SDCC} -mmcs51 --model-small --iram-size 128 --code-size 4096 ${work}/acq.rel ${work}/handshake_board.rel
+    COMMAND ${INS_SDCC} -mmcs51 --model-small --iram-size 128 --code-size 4096 --stack-size 20 ${work}/acq.rel ${work}/handshake_board.rel
             -o ${work}/${name}.ihx
     COMMAND ${CMAKE_COMMAND} -E copy ${work}/${name}.ihx ${work}/${name}.map ${work}/${name}.mem ${out}
     DEPENDS ${here}/acq.c ${here}/acq_config.h ${core}/src/handshake_board.c

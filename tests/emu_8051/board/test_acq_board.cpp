@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(images, acq_image,
                                          image_t{"acq_s3_paper", 73728, 9600.0, 6, 0, 10.9},
                                          image_t{"acq_80ms_seq", 73728, 9600.0, 6, 1, 10.9},
                                          image_t{"acq_57600", 9216, 57600.0, 6, 1, 4.0},
-                                         image_t{"test_block10", 23040, 19200.0, 10, 0, 8.5}),
+                                         image_t{"test_block14", 23040, 19200.0, 14, 0, 10.5}),
                          [](const auto& p) { return std::string(p.param.name); });
 
 /// A step just before each scan: every value of the block knows it.
