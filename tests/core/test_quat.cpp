@@ -9,7 +9,7 @@ using namespace core_test;
 namespace
 {
 const double TOL = INS_TOL(4e-16, 3e-7);           // component of a quaternion or of a unit vector
-const double TOL_LARGE = INS_TOL(4e-15, 6e-7);     // after rotations above 0.5 rad, each squared up from a smaller one
+const double TOL_LARGE = INS_TOL(1e-15, 6e-7);     // after a few products
 const double TOL_LARGE_REL = INS_TOL(6e-16, 3e-7); // of the angle
 const ins_real NOT_A_NUMBER = std::numeric_limits<ins_real>::quiet_NaN();
 const ins_real INFINITE = std::numeric_limits<ins_real>::infinity();

@@ -3,13 +3,11 @@
 /// SPDX-License-Identifier: MIT
 #include "coning_internal.h"
 
-#define R(numerator, denominator) ((ins_real)(numerator) / (ins_real)(denominator))
-
 const ins_coning_row_t ins_coning_rows[INS_CONING_FORM_COUNT] = {
     [INS_CONING_ONE] = {1, 0, {0}},
     [INS_CONING_HIST1] = {2, 0, {R(1, 12)}},
     [INS_CONING_HIST2_FIT] = {3, 0, {R(121, 720), R(-31, 720), 0, R(1, 720)}},
-    [INS_CONING_HIST2_OPT] = {3, 0, {R(7, 60), R(-1, 60)}},
+    [INS_CONING_HIST2_OPT] = CONING_ROW_HIST2_OPT,
     [INS_CONING_HIST3_FIT] = {4, 0, {R(473, 1890), R(-1919, 15120), R(53, 1890), R(2, 315), R(-29, 15120), R(1, 3780)}},
     [INS_CONING_HIST3_OPT] = {4, 0, {R(113, 840), R(-13, 420), R(1, 280)}},
     [INS_CONING_BLOCK2] = {2, 1, {R(2, 3)}},

@@ -14,6 +14,16 @@ typedef struct ins_coning_row_t
     ins_real c[6];
 } ins_coning_row_t;
 
+#define R(numerator, denominator) ((ins_real)(numerator) / (ins_real)(denominator))
+/// The default form's row, here so that the attitude step can be compiled for it.
+#define CONING_ROW_HIST2_OPT                                                                                           \
+    {                                                                                                                  \
+        3, 0,                                                                                                          \
+        {                                                                                                              \
+            R(7, 60), R(-1, 60)                                                                                        \
+        }                                                                                                              \
+    }
+
 extern const ins_coning_row_t ins_coning_rows[INS_CONING_FORM_COUNT];
 
 /// phi += sum c_ab t_a x t_b; t0 is the newest. Increments that the form does not read are not touched.

@@ -4,17 +4,13 @@
 #include "ins/quat.h"
 #include "ins/ins_math.h"
 #include "ins/vec.h"
+#include "quat_internal.h"
 
 #define NORM2_MIN INS_C(1e-30)
 #define NORM2_MAX INS_C(1e30)
 #define DCM_TOL   INS_C(1e-3)
 #define POLE_TOL  (4 * INS_EPSILON) ///< of sqrt(2): here one of yaw + roll, yaw - roll is rounding noise
 #define PI        INS_C(3.14159265358979324)
-
-static ins_real norm2(const ins_real q[4])
-{
-    return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-}
 
 static void scale(ins_real q[4], ins_real k)
 {
@@ -26,14 +22,7 @@ static void scale(ins_real q[4], ins_real k)
 
 void ins_quat_mul(const ins_real p[4], const ins_real q[4], ins_real out[4])
 {
-    const ins_real w = p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3];
-    const ins_real x = p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2];
-    const ins_real y = p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1];
-    const ins_real z = p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0];
-    out[0] = w;
-    out[1] = x;
-    out[2] = y;
-    out[3] = z;
+    quat_mul(p, q, out);
 }
 
 void ins_quat_conj(const ins_real q[4], ins_real out[4])
@@ -58,7 +47,7 @@ void ins_quat_rotate(const ins_real q_nb[4], const ins_real v_b[3], ins_real v_n
 
 ins_status_t ins_quat_normalise(ins_real q[4])
 {
-    const ins_real n2 = norm2(q);
+    const ins_real n2 = quat_norm2(q);
     if (!(n2 >= NORM2_MIN && n2 <= NORM2_MAX))
     {
         return INS_E_RANGE;
@@ -69,7 +58,7 @@ ins_status_t ins_quat_normalise(ins_real q[4])
 
 void ins_quat_normalise_approx(ins_real q[4])
 {
-    scale(q, INS_C(1.5) - INS_C(0.5) * norm2(q));
+    scale(q, INS_C(1.5) - INS_C(0.5) * quat_norm2(q));
 }
 
 void ins_quat_from_euler(const ins_real euler[3], ins_real q_nb[4])

@@ -6,6 +6,7 @@
 #include "ins/ins_math.h"
 #include "ins/quat.h"
 #include "ins/vec.h"
+#include "quat_internal.h"
 
 #define STEP_MAX      INS_C(3.14159265358979324) ///< largest |component| of an increment [rad]
 #define NORM2_TOL     INS_C(2e-3)                ///< 1e-3 in the norm
@@ -21,13 +22,11 @@ ins_status_t ins_reuse_init(ins_reuse_t* self, int form, const ins_real q_nb[12]
     for (int i = 0; i < BLOCK_SAMPLES; i++)
     {
         ins_real* q = start.q_nb[i];
-        ins_real norm2 = 0;
         for (int j = 0; j < 4; j++)
         {
             q[j] = q_nb[4 * i + j];
-            norm2 += q[j] * q[j];
         }
-        if (!(ins_fabs(norm2 - 1) <= NORM2_TOL) || ins_quat_normalise(q) != INS_OK)
+        if (!(ins_fabs(quat_norm2(q) - 1) <= NORM2_TOL) || ins_quat_normalise(q) != INS_OK)
         {
             return INS_E_RANGE;
         }
