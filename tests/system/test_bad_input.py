@@ -52,7 +52,7 @@ def test_image_larger_than_flash(ins, tmp_path):
 def test_missing_files(ins, tmp_path, scenario):
     refused(ins("run", "no/such.toml"), "no/such.toml", "No such file")
     refused(ins("run", "default", "--firmware", tmp_path / "none.ihx"), "none.ihx", "No such file")
-    refused(ins("run", scenario("default", ("acq_default.ihx", "nowhere.ihx"))), ":6: firmware", "nowhere.ihx")
+    refused(ins("run", scenario("default", ("acq_default.ihx", "nowhere.ihx"))), ":4: firmware", "nowhere.ihx")
 
 
 @pytest.mark.parametrize(

@@ -159,7 +159,9 @@ def _run_command(options: argparse.Namespace) -> int:
     if options.trace is not None:
         _write(options.trace, "".join(trace_lines))
     if options.report is not None:
-        _write(options.report, report.html(loaded, result))
+        from libins import page  # matplotlib takes a second to import
+
+        _write(options.report, page.html(loaded, result))
     if str(options.json) != "-":
         print(report.text(result.summary))
     return result.exit_code

@@ -20,7 +20,7 @@ from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
-from libins import report, run, scenario
+from libins import page, report, run, scenario
 from libins.cli import EXIT_USAGE, navd_path
 from libins.endpoint import Pty
 from libins.errors import UsageError
@@ -265,13 +265,13 @@ def main(arguments: list[str] | None = None) -> int:
             result = virtual(loaded, options.seconds)
         else:
             result = real_time(loaded, options.seconds, options.domain, options.folder)
-        page = options.folder / "report.html"
-        page.write_text(report.html(loaded, result), encoding="utf-8")
+        written = options.folder / "report.html"
+        written.write_text(page.html(loaded, result), encoding="utf-8")
     except UsageError as error:
         print(f"demo: {error}", file=sys.stderr)
         return EXIT_USAGE
     print(report.text(result.summary))
-    print(f"report    {os.path.relpath(page)}")
+    print(f"report    {os.path.relpath(written)}")
     return result.exit_code
 
 

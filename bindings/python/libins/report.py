@@ -1,24 +1,11 @@
-"""What a run has to show: a few lines of text, CSV, and an HTML page with plots. The same bytes for the same run."""
+"""What a run has to show as text: a few lines for a terminal, and CSV. The same bytes for the same run."""
 
 import io
 from collections.abc import Iterable
 from typing import Any
 
-import matplotlib
-import numpy as np
-from jinja2 import Environment, PackageLoader, select_autoescape
-from markupsafe import Markup
-
 from libins import _run
-from libins.run import AXES, COLUMNS, Array, Result
-from libins.scenario import Scenario
-
-matplotlib.use("svg")
-
-from matplotlib.figure import Figure  # noqa: E402
-
-PLOT_POINTS = 1500
-"""More states than this are thinned for the plot (the figures above it count them all)."""
+from libins.run import AXES, Array
 
 
 def trace_lines(edges: Array) -> Iterable[str]:
@@ -65,41 +52,3 @@ def text(summary: dict[str, Any]) -> str:
         lines.append(f"not judged, the host is outside: {', '.join(summary['not_judged'])}")
     lines.append(f"verdict   {summary['verdict']}")
     return "\n".join(lines)
-
-
-def attitude_plot(states: Array) -> str:
-    """Truth against estimate, and the error, as SVG."""
-    thinned = states[:: max(1, len(states) // PLOT_POINTS)]
-    t = thinned[:, COLUMNS["t_s"]]
-    with matplotlib.rc_context({"svg.hashsalt": "libins", "svg.fonttype": "none", "font.size": 9}):
-        figure = Figure(figsize=(9, 6), layout="constrained")
-        angles, errors = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
-        for axis, colour in zip(AXES, ("tab:green", "tab:orange", "tab:blue"), strict=True):
-            truth = thinned[:, COLUMNS[f"true_{axis}_rad"]]
-            angles.plot(t, truth, color=colour, linewidth=3, alpha=0.3, label=f"{axis}, truth")
-            angles.plot(t, thinned[:, COLUMNS[f"{axis}_rad"]], color=colour, linewidth=0.9, label=f"{axis}, estimate")
-            errors.plot(t, thinned[:, COLUMNS[f"error_{axis}_rad"]] * 1e3, color=colour, linewidth=0.9, label=axis)
-        angles.set_ylabel("angle [rad]")
-        angles.legend(ncols=3, loc="upper right", frameon=False)
-        errors.set_ylabel("estimate - truth [mrad]")
-        errors.set_xlabel("time [s]")
-        for axes in (angles, errors):
-            axes.grid(alpha=0.3)
-        out = io.StringIO()
-        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    return out.getvalue()[out.getvalue().index("<svg") :]
-
-
-def html(scenario: Scenario, result: Result) -> str:
-    """One self-contained page. Holds no wall-clock figure."""
-    environment = Environment(
-        loader=PackageLoader("libins", "."), autoescape=select_autoescape(), trim_blocks=True, lstrip_blocks=True
-    )
-    plot = Markup(attitude_plot(result.states)) if len(result.states) else None
-    return environment.get_template("report.html").render(
-        summary=result.summary,
-        plot=plot,
-        axes=AXES,
-        scenario_text=scenario.path.read_text(encoding="utf-8"),
-        ages=np.round(result.states[:, COLUMNS["age_s"]] * 1e3, 3) if len(result.states) else None,
-    )

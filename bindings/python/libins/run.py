@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -221,14 +222,14 @@ def accuracy(states: Array) -> dict[str, Any]:
     """The summary's `attitude` and `age_s`; None without states."""
     if not len(states):
         return {"attitude": None, "age_s": None}
-    errors = states[:, [COLUMNS[f"error_{axis}_rad"] for axis in AXES]]
-    ages = states[:, COLUMNS["age_s"]]
+    errors = {axis: states[:, COLUMNS[f"error_{axis}_rad"]].tolist() for axis in AXES}
+    ages = states[:, COLUMNS["age_s"]].tolist()
     return {
         "attitude": {
-            "rms_rad": dict(zip(AXES, np.sqrt(np.mean(errors**2, axis=0)).tolist(), strict=True)),
-            "max_rad": dict(zip(AXES, np.max(np.abs(errors), axis=0).tolist(), strict=True)),
+            "rms_rad": {axis: math.sqrt(math.fsum(e * e for e in errors[axis]) / len(states)) for axis in AXES},
+            "max_rad": {axis: max(map(abs, errors[axis])) for axis in AXES},
         },
-        "age_s": {"min": float(ages.min()), "mean": float(ages.mean()), "max": float(ages.max())},
+        "age_s": {"min": min(ages), "mean": math.fsum(ages) / len(states), "max": max(ages)},
     }
 
 

@@ -1,6 +1,7 @@
 /// \file   run.cpp
 /// \brief  See run.hpp. SPDX-License-Identifier: MIT
 #include "run.hpp"
+#include "ins_truth/elementary.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -19,6 +20,15 @@ constexpr size_t origin_window = 64;
 double wrapped(double angle)
 {
     return angle - 2.0 * pi * std::floor((angle + pi) / (2.0 * pi));
+}
+
+/// Roll, pitch, yaw (ZYX) without libm, so that a score has the same bits everywhere.
+std::array<double, 3> euler_of(const double q[4])
+{
+    const double sine = std::clamp(2.0 * (q[0] * q[2] - q[1] * q[3]), -1.0, 1.0);
+    return {ins_truth_atan2(2.0 * (q[2] * q[3] + q[0] * q[1]), q[0] * q[0] - q[1] * q[1] - q[2] * q[2] + q[3] * q[3]),
+            ins_truth_atan2(sine, std::sqrt(1.0 - sine * sine)),
+            ins_truth_atan2(2.0 * (q[1] * q[2] + q[0] * q[3]), q[0] * q[0] + q[1] * q[1] - q[2] * q[2] - q[3] * q[3])};
 }
 
 emu_time_t picoseconds(double seconds)
@@ -245,9 +255,10 @@ void Run::navigate(const ins_nav_sample_t& sample, emu_time_t at)
     scored.age_s = static_cast<double>(at) * 1e-12 - t;
     ins_motion_attitude(motion_.get(), t, scored.q_nb.data());
     ins_motion_euler(motion_.get(), t, scored.euler.data());
+    scored.estimate = euler_of(scored.state.q_nb);
     for (size_t i = 0; i < 3; i++)
     {
-        scored.error[i] = wrapped(scored.state.euler_rad[i] - scored.euler[i]);
+        scored.error[i] = wrapped(scored.estimate[i] - scored.euler[i]);
     }
     states_.push_back(scored);
 }

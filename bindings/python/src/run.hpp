@@ -36,6 +36,7 @@ struct Scored
     double age_s = 0.0;            ///< from the scan's instant to the state
     std::array<double, 4> q_nb{};  ///< truth
     std::array<double, 3> euler{}; ///< truth: roll, pitch, yaw
+    std::array<double, 3> estimate{};
     std::array<double, 3> error{}; ///< estimate - truth, wrapped to +-pi
 };
 

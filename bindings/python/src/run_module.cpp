@@ -60,7 +60,7 @@ std::vector<double> scored_row(const Scored& s)
 {
     std::vector<double> row = {static_cast<double>(s.state.index), static_cast<double>(s.scan), s.t_s, s.age_s};
     row.insert(row.end(), s.error.begin(), s.error.end());
-    row.insert(row.end(), std::begin(s.state.euler_rad), std::end(s.state.euler_rad));
+    row.insert(row.end(), s.estimate.begin(), s.estimate.end());
     row.insert(row.end(), s.euler.begin(), s.euler.end());
     row.insert(row.end(), std::begin(s.state.q_nb), std::end(s.state.q_nb));
     row.insert(row.end(), s.q_nb.begin(), s.q_nb.end());
