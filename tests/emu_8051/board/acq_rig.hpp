@@ -80,6 +80,7 @@ struct rig_config_t
     uint64_t crystal_hz = 11059200;
     uint8_t block_len = 6, seq = 1;
     uint16_t octet_timeout_ms = 4;
+    unsigned ignored_requests = 0;    ///< AAs of each exchange the host lets pass
     emu_serial_faults_t up{}, down{}; ///< board to host, host to board
     double (*volts)(unsigned channel, int64_t t) = nullptr;
 };
@@ -124,6 +125,7 @@ class acq_rig_t
         const ins_hs_config_t hs{config.block_len, config.seq, 3, 0, config.octet_timeout_ms};
         EXPECT_EQ(ins_hs_host_init(&host, &hs), INS_OK);
         clock = {tick, this, 0, false, nullptr};
+        ack = {acknowledge, this, 0, false, nullptr};
         tick(this, 0);
     }
     ~acq_rig_t() { acq_board_destroy(board); }
@@ -168,13 +170,21 @@ class acq_rig_t
     emu_serial_end_t end;
     ins_hs_host_t host;
     emu_event_t clock;
-    bool silent = false; ///< the host answers nothing
+    bool silent = false;      ///< the host answers nothing
+    emu_time_t ack_delay = 0; ///< from a block to its 00
     std::vector<sample_t> samples;
     std::vector<block_t> blocks;
     std::vector<emu_time_t> request_at; ///< decision of each AA that began an exchange
     std::vector<std::string> reports;
 
   private:
+    bool exchanging = false; ///< BB is out
+    unsigned asked = 0;
+    emu_event_t ack;
+    static void acknowledge(void* ctx, emu_time_t)
+    {
+        emu_serial_end_send(&static_cast<acq_rig_t*>(ctx)->end, INS_HS_ACCEPT);
+    }
     uint16_t now() const { return static_cast<uint16_t>(sched.now / kMs); }
     static void tick(void* ctx, emu_time_t at)
     {
@@ -189,11 +199,16 @@ class acq_rig_t
         {
             return;
         }
+        if (!self->exchanging && octet == INS_HS_REQUEST && ++self->asked <= self->config.ignored_requests)
+        {
+            return;
+        }
         int16_t reply;
         const int what = ins_hs_host_rx(&self->host, octet, self->now(), &reply);
         if (reply == INS_HS_READY)
         {
             self->request_at.push_back(at);
+            self->exchanging = true;
         }
         if (what == INS_HS_BLOCK)
         {
@@ -202,7 +217,13 @@ class acq_rig_t
             ins_hs_block_codes(self->host.block, b.codes);
             self->blocks.push_back(b);
         }
-        if (reply >= 0)
+        if (reply == INS_HS_ACCEPT)
+        {
+            self->exchanging = false;
+            self->asked = 0;
+            emu_sched_at(&self->sched, &self->ack, at + self->ack_delay);
+        }
+        else if (reply >= 0)
         {
             emu_serial_end_send(&self->end, static_cast<uint8_t>(reply));
         }

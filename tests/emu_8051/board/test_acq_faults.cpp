@@ -121,6 +121,11 @@ TEST_P(acq_fault, is_survived_and_counted)
         longest = std::max(longest, b.at - last);
         last = b.at;
     }
+    for (size_t k = 1; 4 * k < rig.samples.size(); k++)
+    {
+        ASSERT_EQ(rig.cycle(rig.sample(k, 0).at) - rig.cycle(rig.sample(k - 1, 0).at), 18432u)
+            << "whatever the serial interrupt does, scan " << k;
+    }
     const unsigned wrong = corrupt_accepted(rig);
     std::printf(
         "%s, seed %llu: %zu scans, accepted %u, lost %u, resent %u, duplicates %u, corrupt %u, timeouts %u, stray %u, "
@@ -188,6 +193,57 @@ TEST(acq_faults, a_cut_of_two_seconds_ends_within_a_period_and_the_time_outs)
         EXPECT_NEAR(rig.lost(), 300, 12);
         expect_adding_up(rig);
     }
+}
+
+/// Octets without pause, their phase against the sampling drifting: the serial interrupt never delays a scan.
+TEST(acq_faults, a_babbling_host_does_not_disturb_the_sampling)
+{
+    constexpr double kBabbleMs = 15000.0;
+    rig_config_t config;
+    config.volts = ramp;
+    config.host_baud = 9587.0;
+    acq_rig_t rig(config);
+    rig.silent = true;
+    for (double ms = 0.0; ms < kBabbleMs; ms += 100.0)
+    {
+        while (rig.end.fifo_count < 100)
+        {
+            emu_serial_end_send(&rig.end, 0x55);
+        }
+        rig.run_to_ms(ms);
+    }
+    for (size_t k = 1; 4 * k < rig.samples.size(); k++)
+    {
+        ASSERT_EQ(rig.cycle(rig.sample(k, 0).at) - rig.cycle(rig.sample(k - 1, 0).at), 18432u) << "scan " << k;
+    }
+    EXPECT_EQ(rig.sampled(), 744u);
+    EXPECT_EQ(rig.sent(), 0u);
+    rig.silent = false;
+    rig.run_to_ms(kBabbleMs + 200.0 + kPeriodMs + kTimeoutsMs);
+    EXPECT_GT(rig.sent(), 0u) << "and the exchange resumes";
+    EXPECT_TRUE(rig.reports.empty()) << rig.reports.front();
+    expect_adding_up(rig);
+}
+
+/// A host so slow that the board is about to copy a waiting sample just as the next scan replaces it, at every phase.
+TEST(acq_faults, a_scan_during_the_copy_does_not_mix_samples)
+{
+    constexpr emu_time_t kSweep = 2 * kMs, kStep = 7 * EMU_PS_PER_US;
+    rig_config_t config;
+    config.ignored_requests = 3;
+    config.volts = [](unsigned channel, int64_t t)
+    { return kLsb * static_cast<double>((t / (20 * kMs) * 301 + 1000 * channel) % 4096); };
+    acq_rig_t rig(config);
+    double ms = 0.0;
+    for (emu_time_t delay = 0; delay < kSweep; delay += kStep)
+    {
+        rig.ack_delay = delay;
+        rig.run_to_ms(ms += 40.0);
+    }
+    EXPECT_GT(rig.blocks.size(), static_cast<size_t>(kSweep / kStep) * 3 / 4);
+    EXPECT_EQ(corrupt_accepted(rig), 0u);
+    EXPECT_GT(rig.lost(), 100u);
+    expect_adding_up(rig);
 }
 
 TEST(acq_faults, one_seed_one_run)
