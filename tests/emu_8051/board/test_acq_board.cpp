@@ -20,6 +20,11 @@ struct image_t
     double exchange_ms_max; ///< start of AA to end of 00
 };
 
+void PrintTo(const image_t& image, std::ostream* out)
+{
+    *out << image.name;
+}
+
 rig_config_t config_of(const image_t& image)
 {
     rig_config_t config;

@@ -100,6 +100,11 @@ struct fault_t
     double accepted_least; ///< of the samples taken
 };
 
+void PrintTo(const fault_t& fault, std::ostream* out)
+{
+    *out << fault.name;
+}
+
 class acq_fault : public testing::TestWithParam<fault_t>
 {
 };
