@@ -175,3 +175,14 @@ int port_open(const char* device, long baud, char* error, size_t size)
 {
     return strncmp(device, "tcp:", 4) == 0 ? open_tcp(device, error, size) : open_serial(device, baud, error, size);
 }
+
+ssize_t port_read(int fd, uint8_t* octets, size_t size)
+{
+    const ssize_t n = read(fd, octets, size);
+    const int reason = errno;
+    const int one = 1;
+    (void)setsockopt(fd, IPPROTO_TCP, TCP_QUICKACK, &one,
+                     sizeof one); // must be said again after each read; fails on a device
+    errno = reason;
+    return n;
+}

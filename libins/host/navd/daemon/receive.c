@@ -95,7 +95,7 @@ static void listen_once(receiver_t* self, local_t* local)
         return;
     }
     uint8_t octets[256];
-    const ssize_t n = read(self->fd, octets, sizeof octets);
+    const ssize_t n = port_read(self->fd, octets, sizeof octets);
     if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR))
     {
         unplugged(self, local, n == 0 ? "the other end closed" : strerror(errno));
