@@ -141,9 +141,8 @@ OP(0xE4, 1, 1, A = 0)
 OP(0xF4, 1, 1, A = U8(~A))
 OP(0xA3, 1, 2, DPTR_SET(DPTR + 1u))
 OP(0xA4, 1, 4, const unsigned p = (unsigned)A * mem[B]; A = U8(p); mem[B] = U8(p >> 8); CARRY(0); SET_OV(p > 0xFFu))
-// Divisor 0: OV, and A and B undefined. The choice is quotient FFh with the remainder A, as a restoring divider gives.
-OP(0x84, 1, 4, const unsigned d = mem[B], n = A; CARRY(0); SET_OV(d == 0);
-    A = U8(d ? n / d : 0xFFu); mem[B] = U8(d ? n % d : n))
+// Divisor 0: OV, and A and B are undefined; they are kept.
+OP(0x84, 1, 4, const unsigned n = A, d = mem[B]; CARRY(0); SET_OV(d == 0); if (d) { A = U8(n / d); mem[B] = U8(n % d); })
 OP(0xD4, 1, 1, unsigned r = A;
     if ((r & 15u) > 9u || (FX & 0x10u)) { r += 6u; }
     if (r > 0xFFu) { CARRY(1u); }

@@ -59,7 +59,7 @@ static counter_t counter(const mcs51_t* self, unsigned n)
     }
 }
 
-/// Counts after the last overflow, or without one, back into the registers. Mode 0 keeps the upper bits of TL ([U]: indeterminate).
+/// Counts after the last overflow, or without one, back into the registers. Mode 0 clears the upper bits of TL ([U]: indeterminate).
 static void store(mcs51_t* self, unsigned n, const counter_t* c)
 {
     uint8_t* const tl = &self->mem[TL0 + n];
@@ -67,7 +67,7 @@ static void store(mcs51_t* self, unsigned n, const counter_t* c)
     switch (mode(self, n))
     {
     case 0:
-        *tl = (uint8_t)((*tl & 0xE0u) | ((0x2000u - c->left) & 0x1Fu));
+        *tl = (0x2000u - c->left) & 0x1Fu;
         *th = (uint8_t)((0x2000u - c->left) >> 5);
         break;
     case 1:
