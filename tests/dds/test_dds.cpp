@@ -122,6 +122,7 @@ TEST(Dds, CarriesEveryFieldWithinAProcess)
         const auto want = state_of(n);
         EXPECT_STREQ(got[n].source, "unit A");
         EXPECT_EQ(got[n].published_ns, static_cast<int64_t>(1000 + n));
+        EXPECT_EQ(got[n].valid, 1);
         EXPECT_EQ(got[n].gone, 0);
         EXPECT_EQ(std::memcmp(&got[n].state, &want, sizeof want), 0) << n;
     }
@@ -188,6 +189,7 @@ TEST(Dds, CarriesStatesBetweenProcessesAndTellsWhenTheWriterIsGone)
     const auto last = take(dds.get(), 1);
     ASSERT_EQ(last.size(), 1u);
     EXPECT_EQ(last[0].gone, 1);
+    EXPECT_EQ(last[0].valid, 0);
     EXPECT_STREQ(last[0].source, "other process");
 }
 
@@ -221,7 +223,7 @@ TEST(Dds, DaemonPublishesWhatItPrints)
         {
             EXPECT_STREQ(s.source, "imu7");
             gone = s.gone != 0;
-            if (!gone)
+            if (s.valid)
             {
                 got[s.state.index] = s;
             }
@@ -259,6 +261,28 @@ TEST(Dds, DomainTakenIsToldAndCanBeJoined)
     }
     const auto state = state_of(6);
     EXPECT_EQ(ins_dds_publish(owner.get(), &state, "x", 0), INS_DDS_OK) << "the guest left the domain alone";
+}
+
+TEST(Dds, SamplesReadAfterTheirWriterLeftSayThatItIsGone)
+{
+    const Handle reader = open(config(0, 1));
+    ins_dds_config_t join = config(1, 0);
+    join.network = INS_DDS_JOIN;
+    Handle writer = open(join);
+    for (uint64_t n = 0; n < 3; n++)
+    {
+        const auto state = state_of(n);
+        ASSERT_EQ(ins_dds_publish(writer.get(), &state, "x", 0), INS_DDS_OK);
+    }
+    writer.reset();
+    const auto got = take(reader.get(), 3);
+    ASSERT_EQ(got.size(), 3u);
+    for (uint64_t n = 0; n < 3; n++)
+    {
+        EXPECT_EQ(got[n].valid, 1);
+        EXPECT_EQ(got[n].gone, 1);
+        EXPECT_EQ(got[n].state.index, n);
+    }
 }
 
 TEST(Dds, PartitionsAreApart)

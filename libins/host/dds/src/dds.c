@@ -269,7 +269,8 @@ static int take_now(ins_dds_t* self, ins_dds_sample_t* out, int max)
         ins_dds_sample_t* sample = &out[count++];
         memset(sample, 0, sizeof *sample);
         memcpy(sample->source, self->taken[i].source, sizeof sample->source);
-        sample->gone = !info[i].valid_data;
+        sample->valid = info[i].valid_data;
+        sample->gone = info[i].instance_state != DDS_IST_ALIVE;
         if (info[i].valid_data)
         {
             sample->published_ns = self->taken[i].published_ns;

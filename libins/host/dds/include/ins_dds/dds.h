@@ -64,7 +64,8 @@ typedef struct ins_dds_sample_t
 {
     char source[INS_DDS_SOURCE_MAX + 1];
     int64_t published_ns; ///< publisher's clock at publication [ns since 1970]
-    int gone;             ///< 1: the last writer of this source left or fell silent; only source is valid
+    int valid; ///< 1: state and published_ns hold a sample; 0: this only brings the news that the source is gone
+    int gone;  ///< 1: when it was taken, the last writer of this source had left or fallen silent
     ins_nav_state_t state;
 } ins_dds_sample_t;
 
