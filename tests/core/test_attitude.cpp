@@ -154,6 +154,39 @@ TEST(attitude, one_axis_rotation_is_exact_in_every_form)
     }
 }
 
+TEST(coning, fit_forms_integrate_polynomial_rates_to_second_order)
+{
+    // Rate t^p about x and t^q about y: the z of phi is 1/2 of the integral of alpha x omega over the interval, exactly.
+    const int fits[] = {INS_CONING_HIST1,  INS_CONING_HIST2_FIT,  INS_CONING_HIST3_FIT,
+                        INS_CONING_BLOCK2, INS_CONING_BLOCK3_FIT, INS_CONING_BLOCK4_FIT};
+    for (const int form : fits)
+    {
+        const int n = ins_coning_samples(form);
+        const double start = ins_coning_is_block(form) ? 0 : n - 1;
+        const auto rise = [&](int k, double from, double to) { return (std::pow(to, k) - std::pow(from, k)) / k; };
+        const auto swept = [&](int p, int q) {
+            return (rise(p + q + 2, start, n) - std::pow(start, p + 1) * rise(q + 1, start, n)) / (p + 1);
+        };
+        for (int p = 0; p < n; p++)
+        {
+            for (int q = 0; q < n; q++)
+            {
+                ins_real theta[3 * INS_CONING_SAMPLES_MAX] = {0};
+                for (int i = 0; i < n; i++)
+                {
+                    theta[3 * i] = static_cast<ins_real>(rise(p + 1, i, i + 1));
+                    theta[3 * i + 1] = static_cast<ins_real>(rise(q + 1, i, i + 1));
+                }
+                ins_real phi[3];
+                ASSERT_EQ(ins_coning_phi(form, theta, phi), INS_OK);
+                const double want = (swept(p, q) - swept(q, p)) / 2;
+                EXPECT_NEAR(static_cast<double>(phi[2]), want, INS_TOL(1e-14, 1e-5) * (1 + swept(p, q)))
+                    << "form " << form << ", t^" << p << ", t^" << q;
+            }
+        }
+    }
+}
+
 TEST(attitude, start_up_uses_what_history_there_is)
 {
     const ins_real theta[9] = {INS_C(0.01), INS_C(0.02),  INS_C(-0.03), INS_C(0.04), INS_C(0.01),
