@@ -126,8 +126,8 @@ def wrapped(angle: float) -> float:
 
 def scored(message: dict[str, Any], scans: Array, motion: Any, board_start_ns: int) -> Array | None:
     """A received state beside the truth at its own scan, as a row of states. None if the board knows no such scan."""
-    # The firmware numbers its scans from 0, the navigator its samples from the first one it used.
-    scan = int(message["index"]) + (int(message["seq"]) - int(message["index"])) % 256
+    # The firmware numbers its scans from 1, the navigator its samples from 0 at the first one it used.
+    scan = int(message["index"]) + (int(message["seq"]) - 1 - int(message["index"])) % 256
     if scan >= len(scans):
         return None
     t = float(scans[scan, 0])
@@ -182,7 +182,7 @@ def real_time(loaded: scenario.Scenario, stop_s: float, domain: int, folder: Pat
                     if row is not None:
                         rows.append(row)
                 counts = {"scans": board.counters()["sampled"], "received over DDS": received}
-                counts |= {key: latest.get("counts", latest).get(key, 0) for key in ("lost", "duplicates", "corrupt")}
+                counts |= {key: latest.get("link", {}).get(key, 0) for key in ("lost", "duplicates", "corrupt")}
                 screen.draw(board.now_ps / PS_PER_S, rows[-1] if rows else None, counts)
                 for child in children:
                     child.check()
@@ -199,7 +199,7 @@ def _judged(
     states = np.array(rows) if rows else np.empty((0, len(COLUMNS)))
     scans = board.scans()
     c = board.counters()
-    counts = latest.get("counts", latest)
+    counts = latest.get("link", {})
     measured = run.accuracy(states)
     failed = []
     used = len(scans) - int(states[0, COLUMNS["scan"]]) if rows else 0
@@ -227,7 +227,7 @@ def _judged(
         "samples": len(scans),
         "link": link,
         **measured,
-        "dds": {"published": counts.get("used", latest.get("used")), "received": received},
+        "dds": {"published": latest.get("used"), "received": received},
         "trace_sha256": None,
         "reports": board.reports(),
         "not_judged": [],
