@@ -237,9 +237,12 @@ mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
             continue;
         }
         set_horizon(self, now);
-        const bool idle = self->mem[PCON] & PCON_IDL;
-        if (idle)
+        if (self->mem[PCON] & PCON_IDL)
         {
+            if ((self->mem[AUXR] & AUXR_WDIDLE) && self->wdt_due != MCS51_NEVER)
+            {
+                self->wdt_due += self->horizon - now;
+            }
             self->left = 0;
             continue;
         }

@@ -2,7 +2,8 @@
 /// \brief  MCS-51 CPU with the peripherals of an AT89S51 (Atmel 2487D): ports, timers 0 and 1, UART, interrupts, watchdog, dual DPTR.
 ///
 /// Time is the machine cycle (12 oscillator periods), counted from reset release at create. All pins are levels the outside sets and
-/// latches the outside is told about; the UART drives P3.1 and samples P3.0 bit by bit.
+/// latches the outside is told about; the UART drives P3.1 and samples P3.0 bit by bit. An instruction reads and writes SFRs and pins
+/// at its end; P3 inputs are sampled once a cycle: a change at cycle c acts at c + 1.
 /// SPDX-License-Identifier: MIT
 #ifndef EMU_8051_MCS51_H_INCLUDED
 #define EMU_8051_MCS51_H_INCLUDED
@@ -35,7 +36,7 @@ typedef enum mcs51_stop_t
 {
     MCS51_RAN = 0,   ///< reached until_cycle
     MCS51_HALTED,    ///< a jump to itself with interrupts off (EA = 0): nothing can ever happen; time still passes if run again
-    MCS51_POWER_DOWN ///< PCON.1: the oscillator is stopped until reset
+    MCS51_POWER_DOWN ///< PCON.1: the oscillator is stopped until reset, or INT0 or INT1 goes low enabled; cycles pass, nothing counts
 } mcs51_stop_t;
 
 /// \return NULL when memory is out.
@@ -52,7 +53,7 @@ EMU_API int mcs51_load(mcs51_t* self, uint16_t address, const uint8_t* octets, s
 EMU_API mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle);
 /// From inside a callback: return from mcs51_run at the next instruction boundary at or after `cycle`, if that is earlier.
 EMU_API void mcs51_shorten(mcs51_t* self, uint64_t cycle);
-/// Now; exact also inside callbacks.
+/// Now; exact also inside callbacks (an edge of TXD may be told up to 3 cycles late, with its own cycle in the call).
 EMU_API uint64_t mcs51_cycle(const mcs51_t* self);
 EMU_API uint64_t mcs51_instructions(const mcs51_t* self);
 EMU_API uint64_t mcs51_interrupts(const mcs51_t* self);
@@ -67,7 +68,7 @@ EMU_API uint16_t mcs51_pc(const mcs51_t* self);
 EMU_API void mcs51_set_pc(mcs51_t* self, uint16_t pc);
 EMU_API uint8_t mcs51_iram(const mcs51_t* self, uint8_t address); ///< 00..7F (FF on parts with 256 octets)
 EMU_API void mcs51_set_iram(mcs51_t* self, uint8_t address, uint8_t value);
-EMU_API uint8_t mcs51_sfr(mcs51_t* self, uint8_t address); ///< 80..FF as the CPU would see it now; ports: the latch
+EMU_API uint8_t mcs51_sfr(mcs51_t* self, uint8_t address); ///< 80..FF; ports: the latch; TL, TH: as of until_cycle of the run
 EMU_API void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value);
 EMU_API uint8_t mcs51_code(const mcs51_t* self, uint16_t address);
 
