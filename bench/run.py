@@ -1,0 +1,98 @@
+"""`./dev bench`: instruction counts against peers and budgets, then the suite again at the counts that are too long for `./dev test`.
+
+    ./dev bench [--json F] [--no-long]
+
+A figure above its budget, or a long test that fails, makes the exit code 1.
+"""
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+BUILD = ROOT / "build/release"
+# Host instructions a step, 5 % above what was measured (gcc 12.2, -O2).
+BUDGETS = {
+    "attitude.hist2.f64.x86.instructions": 145,
+    "attitude.hist2.f32.x86.instructions": 140,
+    "dds.publish.instructions": 12000,
+}
+# The default scenario, simulated over wall: a wall time, so it is printed and not judged.
+Row = dict[str, object]
+
+
+def row(name: str, value: float, unit: str) -> Row:
+    return {"name": name, "value": value, "unit": unit, "peer": None, "peer_value": None, "budget": BUDGETS.get(name)}
+
+
+def callgrind(program: Path, argument: int) -> int:
+    """Instructions of one run."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", str(program), str(argument)]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+    found = re.search(r"Collected : (\d+)", done.stderr)
+    assert found, done.stderr
+    return int(found[1])
+
+
+def per_step(program: str, few: int, many: int) -> float:
+    path = BUILD / "bench" / program
+    return (callgrind(path, many) - callgrind(path, few)) / (many - few)
+
+
+def measure() -> list[Row]:
+    rows = [
+        row("attitude.hist2.f64.x86.instructions", per_step("core/bench_attitude_f64", 1000, 11000), "instructions"),
+        row("attitude.hist2.f32.x86.instructions", per_step("core/bench_attitude_f32", 1000, 11000), "instructions"),
+        row("dds.publish.instructions", per_step("dds/bench_dds_publish", 100, 1100), "instructions"),
+    ]
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "s.json"
+        subprocess.run([sys.executable, "-m", "libins", "run", "default", "--json", out], check=True, capture_output=True)
+        rows.append(row("mcs51.default.sim_per_wall", json.loads(out.read_text())["speed"], "simulated/wall"))
+        mcs51 = Path(folder) / "mcs51.json"
+        script = ROOT / "bench/mcs51/bench_mcs51.py"
+        done = subprocess.run([sys.executable, script, "--build", BUILD, "--json", mcs51])
+        if not mcs51.exists():
+            raise SystemExit(f"{script.name} gave no figures (exit code {done.returncode})")
+        rows += json.loads(mcs51.read_text())
+    return rows
+
+
+def show(rows: list[Row]) -> bool:
+    """Print the table. True when every budget is kept."""
+    kept = True
+    for r in rows:
+        value, budget, peer = r["value"], r["budget"], r["peer_value"]
+        over = isinstance(budget, (int, float)) and isinstance(value, (int, float)) and value > budget
+        kept = kept and not over
+        beside = f"   {r['peer']} {peer:.6g}" if isinstance(peer, (int, float)) else ""
+        limit = f"   budget {budget:g}{' EXCEEDED' if over else ''}" if isinstance(budget, (int, float)) else ""
+        print(f"{r['name']:<44} {value:>12.6g} {r['unit']}{beside}{limit}")
+    return kept
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="./dev bench", description=(__doc__ or "").split("\n")[0])
+    parser.add_argument("--json", type=Path, metavar="F", help="write the figures there")
+    parser.add_argument("--no-long", action="store_true", help="measure only")
+    options = parser.parse_args()
+    rows = measure()
+    kept = show(rows)
+    if options.json is not None:
+        options.json.write_text(json.dumps(rows, indent=2) + "\n", encoding="utf-8")
+    if options.no_long:
+        return 0 if kept else 1
+    environment = {**os.environ, "INS_BENCH": "1"}
+    long = subprocess.run(["ctest", "--preset", "release", "--output-on-failure"], cwd=ROOT, env=environment)
+    system = subprocess.run([sys.executable, "-m", "pytest", "-q", "tests/system/test_link.py"], cwd=ROOT, env=environment)
+    return 0 if kept and long.returncode == 0 and system.returncode == 0 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
