@@ -56,6 +56,7 @@ void mcs51_reset(mcs51_t* self, bool power_on)
     self->self_jump = false;
     self->halted = false;
     self->timer_at = now;
+    self->overflow_at = MCS51_NEVER;
     self->gate_at = 0;
     memset(self->flag_at, 0, sizeof self->flag_at);
     self->wdt_due = MCS51_NEVER;
@@ -71,6 +72,7 @@ void mcs51_reset(mcs51_t* self, bool power_on)
         mcs51_port_drive(self, i, now);
     }
     mcs51_level_requests(self, now);
+    mcs51_plan(self);
     mcs51_look_at(self, now);
 }
 
@@ -175,17 +177,19 @@ static void set_horizon(mcs51_t* self, uint64_t now)
 {
     uint64_t next = earlier(self->until, now + LONGEST_SLICE);
     next = earlier(next, mcs51_interrupt_next(self, now));
-    next = earlier(next, mcs51_periph_next(self));
-    next = earlier(next, self->wdt_due);
+    next = earlier(next, earlier(self->periph_at, self->wdt_due));
+    self->overflow_at = MCS51_NEVER;
     for (unsigned n = 0; n < 2; ++n)
     {
         const uint8_t enable = (uint8_t)(IE_EA | 0x02u << 2 * n), flag = (uint8_t)(0x20u << 2 * n);
         if ((self->mem[IE] & enable) == enable && !(self->mem[TCON] & flag))
         {
-            const uint64_t overflow = mcs51_timer_next(self, n);
-            next = earlier(next,
-                           overflow == MCS51_NEVER ? overflow : overflow + 1u); // the flag is polled in the next cycle
+            self->overflow_at = earlier(self->overflow_at, mcs51_timer_next(self, n));
         }
+    }
+    if (self->overflow_at != MCS51_NEVER)
+    {
+        next = earlier(next, self->overflow_at + 1u); // the flag is polled in the next cycle
     }
     self->horizon = next;
     self->left = next > now ? (int32_t)(next - now) : 0;
@@ -206,6 +210,7 @@ static void freeze(mcs51_t* self, uint64_t now, uint64_t until)
     self->wdt_due = self->wdt_due == MCS51_NEVER ? MCS51_NEVER : self->wdt_due + (until - now);
     self->horizon = until;
     self->left = 0;
+    mcs51_plan(self);
 }
 
 mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
@@ -222,7 +227,12 @@ mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
             }
             return MCS51_POWER_DOWN;
         }
-        mcs51_sync(self, earlier(now, self->until));
+        const uint64_t limit = earlier(now, self->until);
+        mcs51_sync(self, limit);
+        if (limit >= self->overflow_at)
+        {
+            mcs51_timers_sync(self, limit);
+        }
         if (now >= self->until)
         {
             return self->halted ? MCS51_HALTED : MCS51_RAN;
@@ -293,7 +303,9 @@ uint8_t mcs51_sfr(mcs51_t* self, uint8_t address)
     {
         return mcs51_psw(self);
     }
-    mcs51_sync(self, earlier(mcs51_cycle(self), self->until));
+    const uint64_t limit = earlier(mcs51_cycle(self), self->until);
+    mcs51_sync(self, limit);
+    mcs51_timers_sync(self, limit);
     return address < 0x80u ? MCS51_ABSENT_SFR : self->mem[address];
 }
 

@@ -123,7 +123,9 @@ struct mcs51_t
     uint64_t gate_at;            ///< end of the last RETI or write to IE or IP: no vector at this boundary
     uint64_t timer_at;           ///< TL0 TH0 TL1 TH1 are true at this cycle
     uint64_t t1_overflows;
-    uint64_t frozen; ///< cycles spent in power-down, in which no clock ran
+    uint64_t overflow_at; ///< next overflow that requests an interrupt
+    uint64_t periph_at;   ///< next cycle at which the ports or the UART do something
+    uint64_t frozen;      ///< cycles spent in power-down, in which no clock ran
     uint64_t wdt_due;
     bool wdt_armed; ///< 1Eh was written to WDTRST
     uint8_t outside[4], out[4];
@@ -161,10 +163,10 @@ bool mcs51_interrupt(mcs51_t* self, uint64_t now);
 uint64_t mcs51_interrupt_next(mcs51_t* self, uint64_t now);
 void mcs51_raise(mcs51_t* self, unsigned irq, unsigned sfr, uint8_t flag, uint64_t at);
 
-/// Everything that happens by itself, up to and with cycle t.
+/// Fire what ports and UART do by themselves, up to and with cycle t. Timers are brought up to date apart, where they matter.
 void mcs51_sync(mcs51_t* self, uint64_t t);
-/// Next cycle at which the ports or the UART do something.
-uint64_t mcs51_periph_next(const mcs51_t* self);
+/// Find periph_at anew, after anything that can move it.
+void mcs51_plan(mcs51_t* self);
 
 void mcs51_timers_sync(mcs51_t* self, uint64_t t);
 void mcs51_timers_fell(mcs51_t* self, uint8_t fell);          ///< falls on T0, T1 were sampled

@@ -58,7 +58,7 @@ static bool absent(unsigned address)
 {
     static const uint8_t present[16] = {0xBF, 0x7F, 0x01, 0x03, 0x45, 0x01, 0x01, 0x01,
                                         0,    0,    0x01, 0,    0x01, 0,    0x01, 0};
-    return !(present[(address - 0x80u) >> 3] >> (address & 7u) & 1u);
+    return !((unsigned)present[(address - 0x80u) >> 3] >> (address & 7u) & 1u);
 }
 
 static void report_absent(mcs51_t* self, unsigned address)
@@ -94,6 +94,7 @@ static uint8_t read_synced(mcs51_t* self, unsigned address)
         self->config.sync(self->config.ctx, now);
     }
     mcs51_sync(self, now);
+    mcs51_timers_sync(self, now);
     return self->mem[address];
 }
 
@@ -186,6 +187,12 @@ void mcs51_write(mcs51_t* self, unsigned address, uint8_t value)
     case WDTRST:
         write_watchdog(self, value, now);
         return;
+    default:
+        break;
+    }
+    mcs51_timers_sync(self, now);
+    switch (address)
+    {
     case SBUF: // mem holds the receive buffer
         mcs51_uart_sbuf(self, value, now);
         break;
@@ -202,9 +209,10 @@ void mcs51_write(mcs51_t* self, unsigned address, uint8_t value)
         mem[address] = value;
         self->gate_at = now;
         break;
-    default: // timers, PCON, AUXR: mcs51_sync() has counted up to here with the old value
+    default: // timers, PCON, AUXR: what counts has counted up to here with the old value
         mem[address] = value;
         break;
     }
+    mcs51_plan(self);
     mcs51_look_at(self, now);
 }

@@ -11,6 +11,11 @@ enum
     SAMPLED = 0x3D ///< RXD, INT0, INT1, T0, T1
 };
 
+static uint64_t earlier(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
 static uint8_t drive(const mcs51_t* self, unsigned port)
 {
     return (uint8_t)(self->mem[P0 + 0x10u * port] & (port == 3 ? self->alternate : 0xFFu));
@@ -26,6 +31,7 @@ static void p3_changed(mcs51_t* self, uint64_t at)
     if (self->p3_due == MCS51_NEVER && ((mcs51_port_pins(self, 3) ^ self->p3_sampled) & SAMPLED))
     {
         self->p3_due = at + 1u;
+        self->periph_at = earlier(self->periph_at, self->p3_due);
         mcs51_look_at(self, at + 1u);
     }
 }
@@ -74,6 +80,7 @@ void mcs51_level_requests(mcs51_t* self, uint64_t at)
 void mcs51_pins_sample(mcs51_t* self, uint64_t at)
 {
     const uint8_t pins = mcs51_port_pins(self, 3), fell = (uint8_t)(self->p3_sampled & ~pins);
+    mcs51_timers_sync(self, at); // with the old gates
     self->p3_due = MCS51_NEVER;
     self->p3_sampled = pins;
     for (unsigned n = 0; n < 2; ++n)
@@ -91,21 +98,17 @@ void mcs51_pins_sample(mcs51_t* self, uint64_t at)
     }
 }
 
-static uint64_t earlier(uint64_t a, uint64_t b)
+void mcs51_plan(mcs51_t* self)
 {
-    return a < b ? a : b;
-}
-
-uint64_t mcs51_periph_next(const mcs51_t* self)
-{
-    return earlier(self->p3_due, earlier(mcs51_uart_tx_time(self), mcs51_uart_rx_time(self)));
+    self->periph_at = earlier(self->p3_due, earlier(mcs51_uart_tx_time(self), mcs51_uart_rx_time(self)));
 }
 
 void mcs51_sync(mcs51_t* self, uint64_t t)
 {
-    for (uint64_t at = mcs51_periph_next(self); at <= t; at = mcs51_periph_next(self))
+    while (self->periph_at <= t)
     {
-        mcs51_timers_sync(self, at);
+        const uint64_t at = self->periph_at;
+        self->periph_at = MCS51_NEVER; // callbacks may come back here
         if (self->p3_due <= at)
         {
             mcs51_pins_sample(self, at);
@@ -118,8 +121,8 @@ void mcs51_sync(mcs51_t* self, uint64_t t)
         {
             mcs51_uart_rx(self, at);
         }
+        mcs51_plan(self);
     }
-    mcs51_timers_sync(self, t);
 }
 
 /// [U] An enabled external interrupt ends power-down when its pin goes low; the oscillator is taken to start at once.
