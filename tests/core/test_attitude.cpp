@@ -164,9 +164,8 @@ TEST(coning, fit_forms_integrate_polynomial_rates_to_second_order)
         const int n = ins_coning_samples(form);
         const double start = ins_coning_is_block(form) ? 0 : n - 1;
         const auto rise = [&](int k, double from, double to) { return (std::pow(to, k) - std::pow(from, k)) / k; };
-        const auto swept = [&](int p, int q) {
-            return (rise(p + q + 2, start, n) - std::pow(start, p + 1) * rise(q + 1, start, n)) / (p + 1);
-        };
+        const auto swept = [&](int p, int q)
+        { return (rise(p + q + 2, start, n) - std::pow(start, p + 1) * rise(q + 1, start, n)) / (p + 1); };
         for (int p = 0; p < n; p++)
         {
             for (int q = 0; q < n; q++)

@@ -79,7 +79,8 @@ TEST(handshake, sequence_number_travels_in_the_high_nibbles)
     ASSERT_EQ(ins_hs_board_offer(&link.board, block.data(), 0xC7, link.now), INS_OK);
     EXPECT_EQ(ins_hs_board_offer(&link.board, block.data(), 0xC8, link.now), INS_E_STATE);
     Octets sent;
-    link.line = [&](auto& queue, uint16_t at, ins_octet_t octet) {
+    link.line = [&](auto& queue, uint16_t at, ins_octet_t octet)
+    {
         queue.push_back({at, octet});
         sent.push_back(octet);
     };
@@ -104,7 +105,8 @@ TEST(handshake, every_single_octet_lost_flipped_or_doubled_costs_one_exchange_at
         {
             Link link(config(true, 1));
             int count = 0;
-            link.line = [&](auto& queue, uint16_t at, ins_octet_t octet) {
+            link.line = [&](auto& queue, uint16_t at, ins_octet_t octet)
+            {
                 const bool here = count++ == place;
                 if (here && kind == 8)
                 {
@@ -145,7 +147,8 @@ TEST(handshake, a_lost_acceptance_makes_a_duplicate_and_not_a_second_block)
     {
         Link link(config(seq, 3));
         bool lost = false;
-        link.line = [&](auto& queue, uint16_t at, ins_octet_t octet) {
+        link.line = [&](auto& queue, uint16_t at, ins_octet_t octet)
+        {
             if (&queue == &link.to_board && octet == INS_HS_ACCEPT && !lost)
             {
                 lost = true;
@@ -168,7 +171,8 @@ TEST(handshake, a_silent_host_costs_bounded_tries_and_the_gap_is_known)
     Link link(config(true, 2), 0);
     bool cut = false;
     int requests = 0;
-    link.line = [&](auto& queue, uint16_t at, ins_octet_t octet) {
+    link.line = [&](auto& queue, uint16_t at, ins_octet_t octet)
+    {
         requests += octet == INS_HS_REQUEST && &queue == &link.to_host && cut;
         if (!cut)
         {
@@ -240,7 +244,8 @@ TEST(handshake, refuses_settings_that_cannot_work)
 {
     ins_hs_board_t board;
     ins_hs_host_t host;
-    const auto bad = [&](void (*change)(ins_hs_config_t*), bool for_board, bool for_host) {
+    const auto bad = [&](void (*change)(ins_hs_config_t*), bool for_board, bool for_host)
+    {
         ins_hs_config_t cfg = config(true, 3);
         change(&cfg);
         EXPECT_EQ(ins_hs_board_init(&board, &cfg), for_board ? INS_E_RANGE : INS_OK);

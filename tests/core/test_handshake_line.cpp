@@ -31,7 +31,8 @@ TEST(handshake, bad_lines_lose_blocks_but_count_every_one)
         Link link(config(true, static_cast<uint_least8_t>(run % 5)));
         bool clean = false;
         std::map<std::deque<std::pair<uint16_t, ins_octet_t>>*, uint16_t> free_at; // octets stay in order
-        link.line = [&](auto& queue, uint16_t at, ins_octet_t octet) {
+        link.line = [&](auto& queue, uint16_t at, ins_octet_t octet)
+        {
             if (!clean)
             {
                 if (chance(drop))

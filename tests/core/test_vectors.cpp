@@ -182,7 +182,8 @@ TEST(vector_coning, drift_over_whole_cycles)
         const double omega = c["omega"];
         const double t0 = c["t0"];
         const size_t per_cycle = c["increments_per_cycle"];
-        const auto increment = [&](long k) {
+        const auto increment = [&](long k)
+        {
             const double from = omega * (t0 + static_cast<double>(k) * h);
             const double to = from + omega * h;
             // Differences of cosines and sines as products: no cancellation.

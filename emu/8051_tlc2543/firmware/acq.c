@@ -40,6 +40,7 @@ static volatile __bit rx_full, tx_full, tx_idle, event;
 static uint16_t transfer(uint8_t address) __naked __using(1)
 {
     (void)address;
+    // clang-format off
     __asm
         mov     b,#EOC_POLLS
     00001$:
@@ -78,10 +79,12 @@ static uint16_t transfer(uint8_t address) __naked __using(1)
         mov     dph,a
         ret
     __endasm;
+    // clang-format on
 }
 
 void tick(void) __interrupt(TF0_VECTOR) __using(1)
 {
+    // clang-format off
     __asm
         clr     _TR0
         mov     a,#<(RELOAD + STOPPED)
@@ -92,6 +95,7 @@ void tick(void) __interrupt(TF0_VECTOR) __using(1)
         mov     _TH0,a
         setb    _TR0
     __endasm;
+    // clang-format on
     ticks++;
     event = 1;
     if (--ticks_left != 0)
@@ -99,6 +103,7 @@ void tick(void) __interrupt(TF0_VECTOR) __using(1)
         return;
     }
     ticks_left = ACQ_TICKS;
+    // clang-format off
     __asm
         mov     a,#<(RELOAD + ALIGN_AT)
         clr     c
@@ -134,6 +139,7 @@ void tick(void) __interrupt(TF0_VECTOR) __using(1)
         nop
     00005$:
     __endasm;
+    // clang-format on
     transfer(AIN_X);
     codes[0] = transfer(AIN_Y);
     codes[1] = transfer(AIN_Z);

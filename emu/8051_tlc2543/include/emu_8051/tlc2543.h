@@ -21,13 +21,13 @@ typedef void (*tlc2543_sample_fn)(void* ctx, unsigned channel, uint16_t code, do
 typedef struct tlc2543_config_t
 {
     double ref_minus_v, ref_plus_v;
-    emu_time_t t_conv;    ///< conversion [ps], 8 us typical, 10 us maximum
-    emu_time_t t_eoc;     ///< last falling edge to EOC low, 1.5 us typical, 2.2 us maximum
-    emu_time_t t_abort;   ///< a /CS fall within this of the last clock's fall aborts the conversion, 5 us maximum
-    emu_time_t t_enable;  ///< /CS low to DATA OUT driven, 0.7 us typical, 1.3 us maximum
+    emu_time_t t_conv;   ///< conversion [ps], 8 us typical, 10 us maximum
+    emu_time_t t_eoc;    ///< last falling edge to EOC low, 1.5 us typical, 2.2 us maximum
+    emu_time_t t_abort;  ///< a /CS fall within this of the last clock's fall aborts the conversion, 5 us maximum
+    emu_time_t t_enable; ///< /CS low to DATA OUT driven, 0.7 us typical, 1.3 us maximum
     double offset_lsb, gain_lsb; ///< static errors, 0 by default; gain_lsb at full scale
-    emu_analog_t analog; ///< volts NULL: all inputs at REF-
-    tlc2543_sample_fn sampled; ///< may be NULL
+    emu_analog_t analog;         ///< volts NULL: all inputs at REF-
+    tlc2543_sample_fn sampled;   ///< may be NULL
     void* sampled_ctx;
     emu_report_t report;
 } tlc2543_config_t;
@@ -37,8 +37,8 @@ typedef struct tlc2543_t tlc2543_t;
 /// Typical data-sheet values, 0 .. 5 V reference.
 EMU_API void tlc2543_default_config(tlc2543_config_t* config);
 /// Connect the five wires. \return NULL when memory is out, a wire has no room, or the reference span is not positive.
-EMU_API tlc2543_t* tlc2543_create(const tlc2543_config_t* config, emu_sched_t* sched, emu_wire_t* eoc, emu_wire_t* io_clock,
-                                  emu_wire_t* data_in, emu_wire_t* data_out, emu_wire_t* cs_n);
+EMU_API tlc2543_t* tlc2543_create(const tlc2543_config_t* config, emu_sched_t* sched, emu_wire_t* eoc,
+                                  emu_wire_t* io_clock, emu_wire_t* data_in, emu_wire_t* data_out, emu_wire_t* cs_n);
 EMU_API void tlc2543_destroy(tlc2543_t* self);
 
 #ifdef __cplusplus

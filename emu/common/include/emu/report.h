@@ -10,8 +10,8 @@ extern "C" {
 
 typedef enum emu_report_kind_t
 {
-    EMU_GUEST_ERROR,  ///< the firmware did something wrong
-    EMU_NOT_MODELLED  ///< our gap
+    EMU_GUEST_ERROR, ///< the firmware did something wrong
+    EMU_NOT_MODELLED ///< our gap
 } emu_report_kind_t;
 
 /// text lives until the function returns. detail: address, opcode or the like, as the text says.

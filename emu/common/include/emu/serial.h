@@ -13,77 +13,76 @@
 #include "emu/sched.h"
 #include "emu/wire.h"
 #ifdef __cplusplus
-extern "C"
-{
+extern "C" {
 #endif
 
 #define EMU_SERIAL_FIFO 4096 ///< octets that wait for the transmitter
 #define EMU_BAUD_MIN    50.0
 #define EMU_BAUD_MAX    4e6
 
-    typedef void (*emu_serial_rx_fn)(void* ctx, uint8_t octet, bool framing_ok,
-                                     emu_time_t at); ///< at: decision, 9/16 of the stop bit
+typedef void (*emu_serial_rx_fn)(void* ctx, uint8_t octet, bool framing_ok,
+                                 emu_time_t at); ///< at: decision, 9/16 of the stop bit
 
-    typedef struct emu_serial_end_t
-    {
-        emu_sched_t* sched;
-        emu_wire_t* tx; ///< may be NULL: listen only
-        emu_wire_t* rx;
-        int tx_driver;
-        double baud; ///< own clock; bit n of a frame ends at round((n + 1) * 1e12 / baud) ps
-        emu_serial_rx_fn received;
-        void* ctx;
-        emu_event_t tx_event, rx_event;
-        uint16_t tx_frame, rx_bits;
-        uint8_t tx_bit, rx_bit, rx_sample, rx_votes;
-        bool tx_busy, rx_busy;
-        emu_time_t tx_start, rx_start;
-        uint8_t fifo[EMU_SERIAL_FIFO];
-        uint32_t fifo_head, fifo_count;
-        uint64_t octets_sent, octets_received, framing_errors, false_starts, overflow;
-    } emu_serial_end_t;
+typedef struct emu_serial_end_t
+{
+    emu_sched_t* sched;
+    emu_wire_t* tx; ///< may be NULL: listen only
+    emu_wire_t* rx;
+    int tx_driver;
+    double baud; ///< own clock; bit n of a frame ends at round((n + 1) * 1e12 / baud) ps
+    emu_serial_rx_fn received;
+    void* ctx;
+    emu_event_t tx_event, rx_event;
+    uint16_t tx_frame, rx_bits;
+    uint8_t tx_bit, rx_bit, rx_sample, rx_votes;
+    bool tx_busy, rx_busy;
+    emu_time_t tx_start, rx_start;
+    uint8_t fifo[EMU_SERIAL_FIFO];
+    uint32_t fifo_head, fifo_count;
+    uint64_t octets_sent, octets_received, framing_errors, false_starts, overflow;
+} emu_serial_end_t;
 
-    /// \return 0; -1 for a baud outside 50 .. 4e6 or no free driver or watcher.
-    EMU_API int emu_serial_end_init(emu_serial_end_t* self, emu_sched_t* sched, emu_wire_t* tx, emu_wire_t* rx,
-                                    double baud, emu_serial_rx_fn received, void* ctx);
-    /// Queue one octet; it starts at once if the transmitter is free. \return false when the queue is full (counted in overflow).
-    EMU_API bool emu_serial_end_send(emu_serial_end_t* self, uint8_t octet);
+/// \return 0; -1 for a baud outside 50 .. 4e6 or no free driver or watcher.
+EMU_API int emu_serial_end_init(emu_serial_end_t* self, emu_sched_t* sched, emu_wire_t* tx, emu_wire_t* rx, double baud,
+                                emu_serial_rx_fn received, void* ctx);
+/// Queue one octet; it starts at once if the transmitter is free. \return false when the queue is full (counted in overflow).
+EMU_API bool emu_serial_end_send(emu_serial_end_t* self, uint8_t octet);
 
-    typedef struct emu_serial_cut_t
-    {
-        emu_time_t from, to;
-    } emu_serial_cut_t;
+typedef struct emu_serial_cut_t
+{
+    emu_time_t from, to;
+} emu_serial_cut_t;
 
-    typedef struct emu_serial_faults_t
-    {
-        double baud;                  ///< length of a bit slot for bit_error and octet_loss; not looked at without them
-        double bit_error;             ///< probability that a bit slot is inverted
-        double octet_loss;            ///< probability that a frame is swallowed
-        const emu_serial_cut_t* cuts; ///< sorted, not overlapping; caller keeps the array
-        unsigned cut_count;
-        uint64_t seed;
-    } emu_serial_faults_t;
+typedef struct emu_serial_faults_t
+{
+    double baud;                  ///< length of a bit slot for bit_error and octet_loss; not looked at without them
+    double bit_error;             ///< probability that a bit slot is inverted
+    double octet_loss;            ///< probability that a frame is swallowed
+    const emu_serial_cut_t* cuts; ///< sorted, not overlapping; caller keeps the array
+    unsigned cut_count;
+    uint64_t seed;
+} emu_serial_faults_t;
 
-    typedef struct emu_serial_line_t
-    {
-        emu_sched_t* sched;
-        emu_wire_t* from;
-        emu_wire_t* to;
-        int driver;
-        emu_serial_faults_t faults;
-        emu_event_t noise_event, cut_event, loss_event;
-        uint64_t rng;
-        bool inverted, cut, swallowing;
-        unsigned next_cut;
-        emu_time_t slot_origin;
-        uint64_t slot; ///< the slot noise_event begins
-        bool hit;      ///< it is inverted
-        uint64_t slots_inverted, octets_swallowed;
-    } emu_serial_line_t;
+typedef struct emu_serial_line_t
+{
+    emu_sched_t* sched;
+    emu_wire_t* from;
+    emu_wire_t* to;
+    int driver;
+    emu_serial_faults_t faults;
+    emu_event_t noise_event, cut_event, loss_event;
+    uint64_t rng;
+    bool inverted, cut, swallowing;
+    unsigned next_cut;
+    emu_time_t slot_origin;
+    uint64_t slot; ///< the slot noise_event begins
+    bool hit;      ///< it is inverted
+    uint64_t slots_inverted, octets_swallowed;
+} emu_serial_line_t;
 
-    /// \return 0; -1 for a probability outside 0 .. 0.5, a bad baud or cut list, or no free driver or watcher.
-    EMU_API int emu_serial_line_init(emu_serial_line_t* self, emu_sched_t* sched, emu_wire_t* from, emu_wire_t* to,
-                                     const emu_serial_faults_t* faults);
+/// \return 0; -1 for a probability outside 0 .. 0.5, a bad baud or cut list, or no free driver or watcher.
+EMU_API int emu_serial_line_init(emu_serial_line_t* self, emu_sched_t* sched, emu_wire_t* from, emu_wire_t* to,
+                                 const emu_serial_faults_t* faults);
 
 #ifdef __cplusplus
 }

@@ -9,47 +9,46 @@
 #include "emu/time.h"
 #include <stdbool.h>
 #ifdef __cplusplus
-extern "C"
-{
+extern "C" {
 #endif
 
 #define EMU_WIRE_DRIVERS  4
 #define EMU_WIRE_WATCHERS 8
 
-    typedef enum emu_drive_t
+typedef enum emu_drive_t
+{
+    EMU_Z = 0, ///< high impedance
+    EMU_WEAK0,
+    EMU_WEAK1,
+    EMU_STRONG0,
+    EMU_STRONG1
+} emu_drive_t;
+
+typedef void (*emu_wire_fn)(void* ctx, bool level, emu_time_t at);
+
+typedef struct emu_wire_t
+{
+    const char* name; ///< as on the schematic: "P1.3 DATA OUT"
+    uint8_t drivers;
+    uint8_t drive[EMU_WIRE_DRIVERS]; ///< emu_drive_t of each
+    uint8_t watchers;
+    struct
     {
-        EMU_Z = 0, ///< high impedance
-        EMU_WEAK0,
-        EMU_WEAK1,
-        EMU_STRONG0,
-        EMU_STRONG1
-    } emu_drive_t;
+        emu_wire_fn fn;
+        void* ctx;
+    } watch[EMU_WIRE_WATCHERS];
+    bool level;
+    bool floating;
+    uint64_t contentions;
+} emu_wire_t;
 
-    typedef void (*emu_wire_fn)(void* ctx, bool level, emu_time_t at);
-
-    typedef struct emu_wire_t
-    {
-        const char* name; ///< as on the schematic: "P1.3 DATA OUT"
-        uint8_t drivers;
-        uint8_t drive[EMU_WIRE_DRIVERS]; ///< emu_drive_t of each
-        uint8_t watchers;
-        struct
-        {
-            emu_wire_fn fn;
-            void* ctx;
-        } watch[EMU_WIRE_WATCHERS];
-        bool level;
-        bool floating;
-        uint64_t contentions;
-    } emu_wire_t;
-
-    /// level: what an undriven net reads at first.
-    EMU_API void emu_wire_init(emu_wire_t* self, const char* name, bool level);
-    /// \return driver number for emu_wire_drive(), or -1 when EMU_WIRE_DRIVERS are taken.
-    EMU_API int emu_wire_add_driver(emu_wire_t* self);
-    /// fn is called after each change of level, in the order of registration; it must not drive this wire. \return 0, or -1 when full.
-    EMU_API int emu_wire_watch(emu_wire_t* self, emu_wire_fn fn, void* ctx);
-    EMU_API void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t at);
+/// level: what an undriven net reads at first.
+EMU_API void emu_wire_init(emu_wire_t* self, const char* name, bool level);
+/// \return driver number for emu_wire_drive(), or -1 when EMU_WIRE_DRIVERS are taken.
+EMU_API int emu_wire_add_driver(emu_wire_t* self);
+/// fn is called after each change of level, in the order of registration; it must not drive this wire. \return 0, or -1 when full.
+EMU_API int emu_wire_watch(emu_wire_t* self, emu_wire_fn fn, void* ctx);
+EMU_API void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t at);
 
 #ifdef __cplusplus
 }

@@ -16,8 +16,7 @@
 #define INS_DDS_DDS_H_INCLUDED
 #include "ins_nav/nav.h"
 #ifdef __cplusplus
-extern "C"
-{
+extern "C" {
 #endif
 
 #define INS_DDS_TOPIC      "libins/nav_state"
@@ -76,8 +75,7 @@ INS_API void ins_dds_config_default(ins_dds_config_t* cfg);
 /// \return INS_DDS_OK, or an error, and then *self is NULL and nothing is left open.
 INS_API int ins_dds_open(const ins_dds_config_t* cfg, ins_dds_t** self);
 /// \param[in] source id of the publishing unit, 1..INS_DDS_SOURCE_MAX octets: the key of the topic.
-INS_API int ins_dds_publish(ins_dds_t* self, const ins_nav_state_t* state, const char* source,
-                            int64_t published_ns);
+INS_API int ins_dds_publish(ins_dds_t* self, const ins_nav_state_t* state, const char* source, int64_t published_ns);
 /// Wait until something is there, at most timeout_s (0 = look, do not wait). \return samples written to out, 0 = timed out; or an error.
 INS_API int ins_dds_take(ins_dds_t* self, double timeout_s, ins_dds_sample_t* out, int max);
 /// Readers matched with the writer plus writers matched with the reader; negative on error.

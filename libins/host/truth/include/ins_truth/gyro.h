@@ -1,6 +1,5 @@
 /// \file   ins_truth/gyro.h
-/// \brief  Three rate-gyro channels with amplifiers on a known motion: volts(channel, time), a pure function. V, rad/s,
-/// s.
+/// \brief  Three rate-gyro channels with amplifiers on a known motion: volts(channel, time), a pure function. V, rad/s, s.
 ///
 ///     ins_gyro_config_t c;
 ///     ins_gyro_default_config(&c);
