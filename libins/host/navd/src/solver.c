@@ -7,8 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-/// One jump is at most this far about an axis [rad]; a longer gap takes several, which about one axis is the same rotation.
-#define JUMP_MAX 3.0
+/// Largest component of one jump [rad]: |phi| stays below INS_ROTVEC_MAX. A longer gap takes several equal ones, which about one axis
+/// is the same rotation.
+#define JUMP_MAX (INS_ROTVEC_MAX / 2.0)
 
 ins_status_t ins_nav_solver_init(ins_nav_solver_t* self, const ins_nav_config_t* cfg)
 {
