@@ -102,7 +102,7 @@ typedef enum uart_rx_state_t
 typedef struct uart_t
 {
     uint64_t tx_due, rx_due; ///< MCS51_NEVER: nothing under way
-    uint16_t tx_frame, rx_frame;
+    uint32_t tx_frame, rx_frame;
     uint8_t tx_bit, tx_bits, rx_bit, rx_samples, rx_votes;
     uart_rx_state_t rx_state;
 } uart_t;

@@ -66,7 +66,7 @@ void mcs51_level_requests(mcs51_t* self, uint64_t at)
         {
             continue;
         }
-        if (self->p3_sampled >> (2 + n) & 1u)
+        if ((unsigned)self->p3_sampled >> (2 + n) & 1u)
         {
             self->mem[TCON] &= (uint8_t)~flag;
         }
@@ -85,7 +85,7 @@ void mcs51_pins_sample(mcs51_t* self, uint64_t at)
     self->p3_sampled = pins;
     for (unsigned n = 0; n < 2; ++n)
     {
-        if ((fell >> (2 + n) & 1u) && (self->mem[TCON] >> 2 * n & 1u))
+        if (((unsigned)fell >> (2 + n) & 1u) && ((unsigned)self->mem[TCON] >> 2 * n & 1u))
         {
             mcs51_raise(self, n ? IRQ_INT1 : IRQ_INT0, TCON, (uint8_t)(2u << 2 * n), at);
         }

@@ -151,7 +151,7 @@ void mcs51_timers_fell(mcs51_t* self, uint8_t fell)
 {
     for (unsigned n = 0; n < 2; ++n)
     {
-        if ((fell >> (4 + n) & 1u) && enabled(self, n) && (self->mem[TMOD] >> 4 * n & TMOD_COUNTER))
+        if (((unsigned)fell >> (4 + n) & 1u) && enabled(self, n) && !counts_cycles(self, n))
         {
             count(self, n, 1, self->timer_at - 1u);
         }

@@ -92,8 +92,8 @@ void mcs51_uart_sbuf(mcs51_t* self, uint8_t value, uint64_t now)
         u->tx_due = now - self->frozen + 1u;
         return;
     }
-    const unsigned ninth = mode == 1 ? 1u : (self->mem[SCON] & SCON_TB8) / SCON_TB8;
-    u->tx_frame = (uint16_t)(1u << 10 | ninth << 9 | (unsigned)value << 1);
+    const unsigned ninth = mode == 1 ? 1u : (unsigned)self->mem[SCON] / SCON_TB8 & 1u;
+    u->tx_frame = 1u << 10 | ninth << 9 | (unsigned)value << 1;
     u->tx_bits = mode == 1 ? 10 : 11;
     u->tx_due = rollover(self, 16u * unit(self));
 }
@@ -167,7 +167,7 @@ static void shift_in(mcs51_t* self, uint64_t at)
     }
     ++u->rx_due;
     mcs51_alternate(self, P3_TXD, false, at);
-    u->rx_frame = (uint16_t)(u->rx_frame | (mcs51_port_pins(self, 3) & P3_RXD) << u->rx_bit++);
+    u->rx_frame = u->rx_frame | (mcs51_port_pins(self, 3) & (uint32_t)P3_RXD) << u->rx_bit++;
     mcs51_alternate(self, P3_TXD, true, at);
 }
 
@@ -192,7 +192,7 @@ static void rx_bit(mcs51_t* self, bool level, uint64_t at)
         rx_stop(u); // no start bit
         return;
     }
-    u->rx_frame = (uint16_t)(u->rx_frame | (unsigned)level << u->rx_bit);
+    u->rx_frame = u->rx_frame | (uint32_t)level << u->rx_bit;
     if (u->rx_bit < 9)
     {
         ++u->rx_bit;
