@@ -1,4 +1,4 @@
-"""`./dev bench`: instruction counts against peers and budgets, then the suite again at the counts that are too long for `./dev test`.
+"""`./dev bench`: instruction counts against peers and budgets, then the suite at the counts too long for `./dev test`.
 
     ./dev bench [--json F] [--no-long]
 
@@ -22,7 +22,6 @@ BUDGETS = {
     "attitude.hist2.f32.x86.instructions": 140,
     "dds.publish.instructions": 12000,
 }
-# The default scenario, simulated over wall: a wall time, so it is printed and not judged.
 Row = dict[str, object]
 
 
@@ -53,7 +52,8 @@ def measure() -> list[Row]:
     ]
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "s.json"
-        subprocess.run([sys.executable, "-m", "libins", "run", "default", "--json", out], check=True, capture_output=True)
+        command = [sys.executable, "-m", "libins", "run", "default", "--json", out]
+        subprocess.run(command, check=True, capture_output=True)
         rows.append(row("mcs51.default.sim_per_wall", json.loads(out.read_text())["speed"], "simulated/wall"))
         mcs51 = Path(folder) / "mcs51.json"
         script = ROOT / "bench/mcs51/bench_mcs51.py"
@@ -90,7 +90,8 @@ def main() -> int:
         return 0 if kept else 1
     environment = {**os.environ, "INS_BENCH": "1"}
     long = subprocess.run(["ctest", "--preset", "release", "--output-on-failure"], cwd=ROOT, env=environment)
-    system = subprocess.run([sys.executable, "-m", "pytest", "-q", "tests/system/test_link.py"], cwd=ROOT, env=environment)
+    pytest = [sys.executable, "-m", "pytest", "-q", "tests/system/test_link.py"]
+    system = subprocess.run(pytest, cwd=ROOT, env=environment)
     return 0 if kept and long.returncode == 0 and system.returncode == 0 else 1
 
 

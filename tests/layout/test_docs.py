@@ -1,10 +1,12 @@
 """The documentation names what there is."""
 
 import dataclasses
+import re
+import subprocess
 import typing
 from pathlib import Path
 
-from libins import scenario
+from libins import cli, scenario
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -27,3 +29,34 @@ def test_every_scenario_key_is_documented():
         if f"`{key}`" not in page and f"`[{key}]`" not in page and f"`[[{key}]]`" not in page
     ]
     assert missing == []
+
+
+def test_the_c_example_of_the_readme_compiles_and_runs(tmp_path):
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    example = re.search(r"```c\n(.*?)```", text, re.DOTALL)
+    assert example
+    (tmp_path / "example.c").write_text(example[1], encoding="utf-8")
+    for flags, library in (([], "ins_core"), (["-DINS_REAL_FLOAT"], "ins_coref")):
+        archive = next(
+            (ROOT / "build/release/libins/core").glob({"ins_core": "libins.a", "ins_coref": "libinsf.a"}[library])
+        )
+        command = ["gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", *flags, f"-I{ROOT}/libins/core/include"]
+        subprocess.run([*command, tmp_path / "example.c", archive, "-lm", "-o", tmp_path / "example"], check=True)
+        subprocess.run([tmp_path / "example"], check=True)
+
+
+def test_the_commands_of_the_readme_exist(tmp_path):
+    """Every `ins ...` line is taken by the command's own parser; `ins nav` lines by the daemon's."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    block = "\n".join(re.findall(r"```sh\n(.*?)```", text, re.DOTALL))
+    lines = [line.split("#")[0].strip().rstrip("&").split() for line in block.splitlines()]
+    commands = [line[1:] for line in lines if line[:1] == ["ins"]]
+    assert len(commands) >= 5
+    for command in commands:
+        if command[0] == "nav":
+            known = subprocess.run(
+                [ROOT / "build/release/python/libins/bin/ins-navd", "--help"], capture_output=True, text=True
+            )
+            assert all(option.split("=")[0] in known.stdout for option in command if option.startswith("--"))
+        else:
+            cli.parser().parse_args(command)

@@ -17,11 +17,12 @@ from libins.errors import UsageError
 EXIT_USAGE = 2
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+def parser() -> argparse.ArgumentParser:
+    """The command line's grammar."""
+    grammar = argparse.ArgumentParser(
         prog="ins", description="Inertial navigation from the sensor's volts to a message on the network."
     )
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    commands = grammar.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     r = commands.add_parser(
         "run",
@@ -54,13 +55,13 @@ def _parser() -> argparse.ArgumentParser:
     s.add_argument("--limit", type=int, metavar="N", help="stop after N states")
     s.add_argument("--timeout-s", type=float, metavar="S", help="exit 1 when nothing arrives for so long")
     _dds_options(s)
-    return parser
+    return grammar
 
 
-def _dds_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--domain", type=int, default=0, metavar="N", help="DDS domain id, 0..230 (0)")
-    parser.add_argument("--topic", default=None, metavar="T", help="DDS topic name")
-    parser.add_argument(
+def _dds_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--domain", type=int, default=0, metavar="N", help="DDS domain id, 0..230 (0)")
+    command.add_argument("--topic", default=None, metavar="T", help="DDS topic name")
+    command.add_argument(
         "--dds-config",
         type=Path,
         metavar="F.xml",
@@ -206,7 +207,7 @@ def main(arguments: list[str] | None = None) -> int:
         if arguments[:1] == ["nav"]:
             path = navd_path()
             os.execv(path, [str(path), *arguments[1:]])
-        options = _parser().parse_args(arguments)
+        options = parser().parse_args(arguments)
         return _run_command(options) if options.command == "run" else _sub_command(options)
     except UsageError as error:
         print(f"ins: {error}", file=sys.stderr)
