@@ -24,7 +24,8 @@ static const char* const help =
     "  -w, --wait                wait for a device that is missing at the start\n"
     "      --block-len N         octets of a block, 6 to 32; 6\n"
     "      --seq, --no-seq       sequence number in the spare bits of X and Y, or not; --seq\n"
-    "      --octet-timeout-ms N  longest silence inside a block; 20\n"
+    "      --octet-timeout-ms N  longest silence inside a block, below the board's wait for a reply;\n"
+    "                            0.3 periods, at least 3 octets\n"
     "sensor\n"
     "  -p, --period S            the firmware's sampling period; 0.02\n"
     "      --lsb-deg-s V[,V,V]   rate per code; 180/4096\n"
@@ -318,6 +319,14 @@ static int take(options_t* o, int code, const char* text)
     return good;
 }
 
+/// The boards of this project wait two fifths of a period for a reply, at least five octets' time.
+static uint16_t usual_octet_timeout_ms(const options_t* o)
+{
+    const double octet_ms = 10e3 / (double)o->baud;
+    const double wanted_ms = 300.0 * o->nav.period_s > 3.0 * octet_ms ? 300.0 * o->nav.period_s : 3.0 * octet_ms;
+    return (uint16_t)(wanted_ms < 2.0 ? 2.0 : wanted_ms < 1000.0 ? wanted_ms : 1000.0);
+}
+
 static const char* problem(const options_t* o)
 {
     if (o->device == NULL)
@@ -343,6 +352,7 @@ int options_parse(int argc, char** argv, options_t* options)
 {
     memset(options, 0, sizeof *options);
     ins_nav_config_default(&options->nav);
+    options->nav.octet_timeout_ms = 0; // not given
     options->baud = 9600;
     options->queue = 64;
     options->source = "ins-navd";
@@ -369,6 +379,10 @@ int options_parse(int argc, char** argv, options_t* options)
         {
             return 2;
         }
+    }
+    if (options->nav.octet_timeout_ms == 0)
+    {
+        options->nav.octet_timeout_ms = usual_octet_timeout_ms(options);
     }
     const char* wrong = optind < argc ? "an argument too many; try --help" : problem(options);
     if (wrong != NULL)

@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#define TICK_MS        10 ///< longest wait for an octet before the time-outs are looked at
+#define TICK_MAX_MS    10 ///< longest wait for an octet before the time-outs are looked at
 #define BACKOFF_MIN_MS 50 ///< first pause before a lost device is tried again; doubled each time
 #define BACKOFF_MAX_MS 1000
 #define SILENT_OCTETS  64          ///< so many octets and
@@ -83,7 +83,9 @@ static void take_octet(receiver_t* self, local_t* local, uint8_t octet, uint64_t
 static void listen_once(receiver_t* self, local_t* local)
 {
     struct pollfd p = {self->fd, POLLIN, 0};
-    const int ready = poll(&p, 1, TICK_MS);
+    const int half_timeout_ms = self->options->nav.octet_timeout_ms / 2;
+    const int tick_ms = half_timeout_ms < 1 ? 1 : half_timeout_ms < TICK_MAX_MS ? half_timeout_ms : TICK_MAX_MS;
+    const int ready = poll(&p, 1, tick_ms);
     if (ready < 0)
     {
         return; // a signal

@@ -19,7 +19,7 @@ void ins_nav_config_default(ins_nav_config_t* cfg)
     cfg->block_len = 6;
     cfg->seq = 1;
     cfg->retries = 3;
-    cfg->octet_timeout_ms = 20;
+    cfg->octet_timeout_ms = 6; // the default firmware waits 8.9 ms for a reply
     cfg->form = INS_CONING_HIST2_OPT;
     cfg->rate_order = 4;
     cfg->skew_order = 2;
