@@ -19,8 +19,7 @@
 #include "ins_nav/types.h"
 #include <stddef.h>
 #ifdef __cplusplus
-extern "C"
-{
+extern "C" {
 #endif
 
 /// Octets to samples. Members are private; counts is readable.

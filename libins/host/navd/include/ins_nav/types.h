@@ -5,19 +5,18 @@
 #define INS_NAV_TYPES_H_INCLUDED
 #include "ins/handshake.h"
 #ifdef __cplusplus
-extern "C"
-{
+extern "C" {
 #endif
 
 /// Status bits of a state. long_gap and disagree stay from then on, the others speak of one step.
 /// start: fewer previous samples than the formulas want. bridged: samples were lost before this one. clipped: a channel reads 0 or
 /// code_max, so the rate may be larger. long_gap: more than bridge_max samples were lost at once. disagree: sequence number and
 /// arrival time tell different times; the board restarted, or the period is not the firmware's.
-#define INS_NAV_STATUS_LIST(X)             \
-    X(INS_NAV_START, 0x01, "start")        \
-    X(INS_NAV_BRIDGED, 0x02, "bridged")    \
-    X(INS_NAV_CLIPPED, 0x04, "clipped")    \
-    X(INS_NAV_LONG_GAP, 0x08, "long_gap")  \
+#define INS_NAV_STATUS_LIST(X)                                                                                         \
+    X(INS_NAV_START, 0x01, "start")                                                                                    \
+    X(INS_NAV_BRIDGED, 0x02, "bridged")                                                                                \
+    X(INS_NAV_CLIPPED, 0x04, "clipped")                                                                                \
+    X(INS_NAV_LONG_GAP, 0x08, "long_gap")                                                                              \
     X(INS_NAV_DISAGREE, 0x10, "disagree")
 
 #define INS_NAV_STATUS_ENUM(name, value, text) name = (value),
@@ -29,10 +28,10 @@ enum
 
 typedef struct ins_nav_config_t
 {
-    double period_s;   ///< the firmware's sampling period [s]
-    uint8_t block_len; ///< 6..INS_HS_BLOCK_MAX octets; XH XL YH YL ZH ZL come first, what follows is not read
-    uint8_t seq;       ///< 1: sequence number in the high nibbles of octets 0 and 2
-    uint8_t retries;   ///< FFs in a row before the next AA is awaited
+    double period_s;           ///< the firmware's sampling period [s]
+    uint8_t block_len;         ///< 6..INS_HS_BLOCK_MAX octets; XH XL YH YL ZH ZL come first, what follows is not read
+    uint8_t seq;               ///< 1: sequence number in the high nibbles of octets 0 and 2
+    uint8_t retries;           ///< FFs in a row before the next AA is awaited
     uint16_t octet_timeout_ms; ///< longest silence inside a block; below the board's reply time-out
     int form;                  ///< INS_CONING_ONE or INS_CONING_HIST*
     uint8_t rate_order;        ///< Adams-Moulton order, 2..5
@@ -43,7 +42,7 @@ typedef struct ins_nav_config_t
     uint16_t code_max;         ///< full scale; a larger value is no sample and is refused. At most 4095 with seq
     double q_nb[4];            ///< attitude at the first sample, scalar first
     uint32_t bridge_max;       ///< lost samples in a row that may be bridged without INS_NAV_LONG_GAP
-    uint32_t clock_tolerance;  ///< periods by which arrival time and sequence number may differ without INS_NAV_DISAGREE
+    uint32_t clock_tolerance; ///< periods by which arrival time and sequence number may differ without INS_NAV_DISAGREE
 } ins_nav_config_t;
 
 /// Of the link, since the start.
