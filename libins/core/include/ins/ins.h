@@ -11,6 +11,7 @@
 #include "ins/quat.h"
 #include "ins/rates.h"
 #include "ins/reuse.h"
+#include "ins/thesis.h"
 #include "ins/vec.h"
 #include "ins/version.h"
 #endif // INS_INS_H_INCLUDED
