@@ -23,7 +23,7 @@ TEST(version, abi_check_refuses_the_other_library)
 
 TEST(version, every_status_has_a_text)
 {
-    for (const int status : {INS_OK, INS_E_RANGE, INS_E_STATE, INS_E_ABI, INS_S_START})
+    for (const int status : {INS_OK, INS_E_RANGE, INS_E_STATE, INS_E_ABI, INS_E_GATE, INS_S_START})
     {
         EXPECT_STRNE(ins_status_text(status), ins_status_text(-1000));
     }

@@ -16,6 +16,7 @@ typedef float ins_real;
 #define INS_C(x)      x##f
 #define INS_TOL(d, f) (f)
 #define INS_EPSILON   FLT_EPSILON
+#define INS_REAL_MAX  FLT_MAX
 #else
 #if DBL_MANT_DIG < 53
 #error "double has fewer than 53 bits here (AVR, SDCC, C28x COFF): build with -DINS_REAL_FLOAT"
@@ -24,6 +25,7 @@ typedef double ins_real;
 #define INS_C(x)      x
 #define INS_TOL(d, f) (d)
 #define INS_EPSILON   DBL_EPSILON
+#define INS_REAL_MAX  DBL_MAX
 #endif
 
 #if defined(__GNUC__) && !defined(__SDCC)
@@ -43,12 +45,13 @@ typedef int ins_status_t;
     X(INS_E_RANGE, -1, "an argument is out of range or not a number")                                                  \
     X(INS_E_STATE, -2, "not in this state (a transfer is in progress)")                                                \
     X(INS_E_ABI, -3, "headers and library differ in version or in the size of ins_real")                               \
+    X(INS_E_GATE, -4, "measurement refused: its innovation is outside the gate")                                       \
     X(INS_S_START, 1, "done with fewer previous samples than the formula wants (start-up)")
 
 #define INS_STATUS_ENUM(name, value, text) name = (value),
 enum
 {
-    INS_STATUS_LIST(INS_STATUS_ENUM) INS_STATUS_COUNT_ = 5
+    INS_STATUS_LIST(INS_STATUS_ENUM) INS_STATUS_COUNT_ = 6
 };
 #undef INS_STATUS_ENUM
 
