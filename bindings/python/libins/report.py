@@ -42,7 +42,11 @@ def text(summary: dict[str, Any]) -> str:
     if (age := summary["age_s"]) is not None:
         lines.append(f"age       {age['min'] * 1e3:.2f} to {age['max'] * 1e3:.2f} ms from the sample to the attitude")
     if summary["dds"] is not None:
-        lines.append(f"dds       {summary['dds']['published']} published")
+        received = summary["dds"]["received"]
+        lines.append(
+            f"dds       {summary['dds']['published']} published"
+            + (f", {received} received" if received is not None else "")
+        )
     lines += [
         f"{r['kind']}: {r['text']} ({r['detail']:#x}), {r['count']} times, first at {r['first_s']:.6f} s"
         for r in summary["reports"]

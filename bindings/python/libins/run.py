@@ -129,11 +129,12 @@ def execute(scenario: Scenario, options: Options) -> Result:
     started = time.monotonic()
     stop_ps = round(stop_s * PS_PER_S)
     reached_samples = False
+    pacer = Pacer(speed or 1.0)
     while run.now_ps < stop_ps and not reached_samples:
         if speed is None:
             run.until(min(stop_ps, run.now_ps + round(SLICE_S * PS_PER_S)))
         else:
-            paced(run, speed, started, stop_ps, options.endpoint)
+            pacer.step(run, stop_ps, options.endpoint)
         states, raw = run.take_states()
         edges = run.take_edges()
         digest.update(edges.tobytes())
@@ -179,17 +180,31 @@ def execute(scenario: Scenario, options: Options) -> Result:
     return Result(summary, states, run.scans(), code)
 
 
-def paced(run: Any, speed: float, started: float, stop_ps: int, endpoint: Endpoint | None) -> None:
-    """One slice of a run that keeps to the wall clock and talks to the outside."""
-    if endpoint is not None and (octets := endpoint.read()):
-        run.send(octets)
-    due_ps = round((time.monotonic() - started) * speed * PS_PER_S)
-    run.until(min(stop_ps, max(due_ps, run.now_ps + round(PACED_SLICE_S * speed * PS_PER_S))))
-    if endpoint is not None and (octets := run.take_octets()):
-        endpoint.write(octets)
-    ahead_s = run.now_ps / PS_PER_S / speed - (time.monotonic() - started)
-    if ahead_s > 0:
-        time.sleep(ahead_s)
+class Pacer:
+    """Keeps virtual time to the wall clock, never ahead of it, and never catching up.
+
+    A machine that stalls stops the board's time as well, so that the host at the other end has the whole time-outs.
+    """
+
+    def __init__(self, speed: float) -> None:
+        """Speed: simulated seconds a wall second."""
+        self._speed = speed
+        self._origin = time.monotonic()
+        """The wall clock at which virtual time would have been 0."""
+
+    def step(self, run: Any, stop_ps: int, endpoint: Endpoint | None) -> None:
+        """Run what the wall clock asks for, a slice at most, and exchange octets with the outside."""
+        if endpoint is not None and (octets := endpoint.read()):
+            run.send(octets)
+        slice_ps = round(PACED_SLICE_S * self._speed * PS_PER_S)
+        run.until(min(stop_ps, run.now_ps + slice_ps))
+        if endpoint is not None and (octets := run.take_octets()):
+            endpoint.write(octets)
+        ahead_s = self._origin + run.now_ps / PS_PER_S / self._speed - time.monotonic()
+        if ahead_s > 0:
+            time.sleep(ahead_s)
+        else:
+            self._origin -= ahead_s
 
 
 def _measured(scenario: Scenario, run: Any, states: Array, outside: bool) -> dict[str, Any]:
