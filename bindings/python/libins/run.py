@@ -193,18 +193,18 @@ class Pacer:
         """The wall clock at which virtual time would have been 0."""
 
     def step(self, run: Any, stop_ps: int, endpoint: Endpoint | None) -> None:
-        """Run what the wall clock asks for, a slice at most, and exchange octets with the outside."""
-        if endpoint is not None and (octets := endpoint.read()):
-            run.send(octets)
-        slice_ps = round(PACED_SLICE_S * self._speed * PS_PER_S)
-        run.until(min(stop_ps, run.now_ps + slice_ps))
-        if endpoint is not None and (octets := run.take_octets()):
-            endpoint.write(octets)
-        ahead_s = self._origin + run.now_ps / PS_PER_S / self._speed - time.monotonic()
+        """Wait for the end of the next slice, run it, and exchange octets with the outside."""
+        end_ps = min(stop_ps, run.now_ps + round(PACED_SLICE_S * self._speed * PS_PER_S))
+        ahead_s = self._origin + end_ps / PS_PER_S / self._speed - time.monotonic()
         if ahead_s > 0:
             time.sleep(ahead_s)
         else:
             self._origin -= ahead_s
+        if endpoint is not None and (octets := endpoint.read()):
+            run.send(octets)
+        run.until(end_ps)
+        if endpoint is not None and (octets := run.take_octets()):
+            endpoint.write(octets)
 
 
 def _measured(scenario: Scenario, run: Any, states: Array, outside: bool) -> dict[str, Any]:
