@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: MIT
 """Random MCS-51 programs that end: every opcode but A5h, forward branches, short loops, calls, and a turn count.
 
-RAM: 00-1F banks, 20-2F bits, 30-58 data, 59-5C written by the handlers, 5D-5E turn count, 60-7F stack. Pointers are masked before use.
+RAM: 00-1F banks, 20-2F bits, 30-58 data, 59-5C written by the handlers, 5D-5E turn count, 60-7F stack.
+Pointers are masked before use.
 Where a rule of silicon and uCsim differ, the program is written so that the difference cannot show:
 - uCsim keeps the P bit of a direct write to PSW until ACC is next written: such a write is followed by one to ACC;
 - uCsim (0.6.4) does not change the register bank when RS0 or RS1 is written as a bit: PSW is written by octet only;
-- uCsim takes a request flag at the boundary at which it goes up, Intel's parts poll it in the next cycle, one instruction later:
-  flags that software raises are followed by NOPs, one for each handler and more. The return addresses on the stack differ by that, so programs with
-  interrupts do not read what lies above the stack pointer;
+- uCsim takes a request flag at the boundary at which it goes up, Intel's parts poll it in the next cycle, one
+  instruction later: flags that software raises are followed by NOPs, one for each handler and more. The return
+  addresses on the stack differ by that, so programs with interrupts do not read what lies above the stack pointer;
 - uCsim's vector takes one cycle, Intel's LCALL takes two: the comparison adds one cycle for each interrupt;
 - of simultaneous requests uCsim takes the first polled, not the one of higher priority: all have one priority;
 - with timer 0 in mode 3, timer 1 is stopped by its own mode 3: uCsim lets TR1 stop it, which then belongs to TH0;
-- the UART, whose divider uCsim restarts at each write to SBUF, is not used; ports are compared as latches with all pins high.
+- the UART, whose divider uCsim restarts at each write to SBUF, is not used; ports are compared as latches with all
+  pins high.
 """
 
 import random
@@ -73,7 +75,6 @@ class Generator:
         self.ram_end = STACK + 1 if self.interrupts else 0x80
         self.turns = turns
 
-    # -- pieces ---------------------------------------------------------------------------------------------------------
     def emit(self, *octets):
         for octet in octets:
             self.code[self.at] = octet
@@ -172,7 +173,6 @@ class Generator:
         else:
             self.emit(0x74, 0xFF, r.choice([0xF0, 0xF2, 0xF3]))
 
-    # -- control flow ---------------------------------------------------------------------------------------------------
     def body(self, longest=4):
         for _ in range(self.rng.randrange(1, longest)):
             self.block(nested=True)
@@ -257,7 +257,7 @@ class Generator:
         self.emit(0xD8 + n, (start - self.at - 2) & 0xFF)
 
     def request(self):
-        """Raise requests by software: order of priority, one instruction after each RETI, and the gate after a write to IE."""
+        """Raise requests by software: order of polling, one instruction after RETI, the gate after a write to IE."""
         flags = self.rng.choice([0x20, 0x80, 0x02, 0x08, 0xA0, 0x2A, 0xAA])
         kind = self.rng.randrange(3)
         if kind == 0:
@@ -285,7 +285,6 @@ class Generator:
             flow.append(self.request)
         self.rng.choice(simple * 3 + flow)()
 
-    # -- the whole ------------------------------------------------------------------------------------------------------
     def handlers(self):
         for n in range(5):
             self.at = 8 * n + 3

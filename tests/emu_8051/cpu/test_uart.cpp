@@ -100,6 +100,23 @@ TEST(uart_tx, an_octet_written_at_ti_follows_after_one_stop_bit)
     EXPECT_EQ(b.reports.size(), 1u);
 }
 
+TEST(uart_tx, an_edge_after_until_waits_for_the_next_run)
+{
+    bare_cpu b;
+    set_up(b, 0x40);
+    b.run(1000);
+    b.set(sfr::SBUF, 0x55);
+    unsigned passed = 0;
+    for (uint64_t until = 1001; until < 3000; ++until)
+    {
+        b.run(until);
+        ASSERT_LE(b.edges.empty() ? 0 : b.edges.back().cycle, until);
+        passed += b.now() > until;
+    }
+    EXPECT_EQ(txd_edges(b).size(), 10u);
+    EXPECT_GT(passed, 900u);
+}
+
 TEST(uart_tx, mode_3_sends_nine_bits_and_smod_doubles)
 {
     for (const int tb8 : {0, 1})
@@ -313,23 +330,26 @@ TEST(uart_rx, a_glitch_is_no_start_bit_and_the_majority_of_three_wins)
     EXPECT_EQ(b.get(sfr::SCON) & 0x05, 0x05);
     EXPECT_EQ(b.get(sfr::SBUF), 0x5A);
 
-    // One sample of each data bit is inverted: a pulse of 5 cycles (a tick is 6) about the centre.
-    bare_cpu noisy;
-    set_up(noisy, 0x50);
+    // One sample of each bit is inverted: a pulse of 5 cycles (a tick is 6) wherever it falls about the centre.
     const auto levels = frame(0x5A);
-    for (size_t i = 0; i <= levels.size(); ++i)
+    for (uint64_t offset = 36; offset < 64; ++offset)
     {
-        const uint64_t at = 3000 + i * BIT;
-        const int level = i < levels.size() ? levels[i] : 1;
-        noisy.run(at);
-        mcs51_set_pins(noisy.cpu, 3, level ? 0xFF : 0xFE, at);
-        noisy.run(at + 46);
-        mcs51_set_pins(noisy.cpu, 3, level ? 0xFE : 0xFF, at + 46);
-        noisy.run(at + 51);
-        mcs51_set_pins(noisy.cpu, 3, level ? 0xFF : 0xFE, at + 51);
+        bare_cpu noisy;
+        set_up(noisy, 0x50);
+        for (size_t i = 0; i <= levels.size(); ++i)
+        {
+            const uint64_t at = 3000 + i * BIT;
+            const int level = i < levels.size() ? levels[i] : 1;
+            for (const auto& [cycle, value] :
+                 {std::pair<uint64_t, int>{at, level}, {at + offset, !level}, {at + offset + 5, level}})
+            {
+                noisy.run(cycle);
+                mcs51_set_pins(noisy.cpu, 3, value ? 0xFF : 0xFE, cycle);
+            }
+        }
+        noisy.run(6000);
+        EXPECT_EQ(noisy.get(sfr::SBUF), 0x5A) << offset;
     }
-    noisy.run(6000);
-    EXPECT_EQ(noisy.get(sfr::SBUF), 0x5A);
 }
 
 TEST(uart_rx, needs_ren)

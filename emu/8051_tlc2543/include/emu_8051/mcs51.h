@@ -34,8 +34,8 @@ typedef struct mcs51_config_t
 
 typedef enum mcs51_stop_t
 {
-    MCS51_RAN = 0,   ///< reached until_cycle
-    MCS51_HALTED,    ///< a jump to itself with interrupts off (EA = 0): nothing can ever happen; time still passes if run again
+    MCS51_RAN = 0, ///< reached until_cycle
+    MCS51_HALTED, ///< a jump to itself with interrupts off (EA = 0): nothing can ever happen; time still passes if run again
     MCS51_POWER_DOWN ///< PCON.1: the oscillator is stopped until reset, or INT0 or INT1 goes low enabled; cycles pass, nothing counts
 } mcs51_stop_t;
 
@@ -49,7 +49,7 @@ EMU_API int mcs51_load(mcs51_t* self, uint16_t address, const uint8_t* octets, s
 
 /// Execute instructions until the cycle counter is at or past until_cycle (the last instruction may pass it by up to 3 cycles).
 /// Peripheral events (overflow, UART bit) later than until_cycle are left for the next call, so that outside events at that
-/// instant come first.
+/// instant come first. Only an instruction that passes it and touches an SFR brings them up to its end, after calling sync.
 EMU_API mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle);
 /// From inside a callback: return from mcs51_run at the next instruction boundary at or after `cycle`, if that is earlier.
 EMU_API void mcs51_shorten(mcs51_t* self, uint64_t cycle);
@@ -68,7 +68,8 @@ EMU_API uint16_t mcs51_pc(const mcs51_t* self);
 EMU_API void mcs51_set_pc(mcs51_t* self, uint16_t pc);
 EMU_API uint8_t mcs51_iram(const mcs51_t* self, uint8_t address); ///< 00..7F (FF on parts with 256 octets)
 EMU_API void mcs51_set_iram(mcs51_t* self, uint8_t address, uint8_t value);
-EMU_API uint8_t mcs51_sfr(mcs51_t* self, uint8_t address); ///< 80..FF; ports: the latch; TL, TH: as of until_cycle of the run
+EMU_API uint8_t mcs51_sfr(mcs51_t* self,
+                          uint8_t address); ///< 80..FF; ports: the latch; TL, TH: as of until_cycle of the run
 EMU_API void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value);
 EMU_API uint8_t mcs51_code(const mcs51_t* self, uint16_t address);
 

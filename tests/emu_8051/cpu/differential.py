@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
-"""Random programs on our CPU and on uCsim (s51 of Debian's sdcc-ucsim): registers, RAM, instructions and cycles must be equal.
+"""Random programs on our CPU and on uCsim: registers, RAM, instructions and cycles must be equal.
 
-    test_differential.py RUN_BIN [--instructions N] [--seed S]
+    differential.py RUN_BIN [--instructions N] [--seed S]
 
-The bench count is in INS_MCS51_DIFF_INSTRUCTIONS. What is not compared, and why: random_program.py. Exit 0, 1 on a difference, 2 if it cannot run.
+N is the CI count, or the longer one with INS_BENCH=1. What is not compared, and why: random_program.py.
+Exit 0, 1 on a difference, 2 if it cannot run.
 """
 
 import argparse
@@ -13,10 +14,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from pathlib import Path
 
 from random_program import Generator, opcodes_of
 
-CI_INSTRUCTIONS = 2_000_000
+CI_INSTRUCTIONS, BENCH_INSTRUCTIONS = 2_000_000, 50_000_000
 TURNS = 12
 SFR = {
     "P0": 0x80,
@@ -83,7 +85,6 @@ dump /h sfr 0x80 0xff
 state
 quit
 """
-    # The console answers as it reads: `run` must have stopped before the next line counts, so uCsim reads them from a pipe in order.
     out = subprocess.run([s51, "-t", "51"], input=commands, capture_output=True, text=True, timeout=TIMEOUT_S).stdout
     stop = re.search(r"Stop at 0x([0-9a-f]+): \(104\)", out)
     total = re.search(r"Total time since last reset= .*\((\d+) clks\)", out)
@@ -97,26 +98,22 @@ quit
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("run_bin")
-    parser.add_argument(
-        "--instructions", type=int, default=int(os.environ.get("INS_MCS51_DIFF_INSTRUCTIONS", CI_INSTRUCTIONS))
-    )
+    count = BENCH_INSTRUCTIONS if os.environ.get("INS_BENCH") == "1" else CI_INSTRUCTIONS
+    parser.add_argument("--instructions", type=int, default=count)
     parser.add_argument("--seed", type=int, default=51_000)
     options = parser.parse_args()
     tools = [shutil.which(name) for name in ("s51", "objcopy")]
     if not all(tools):
-        fail(
-            "test_differential needs s51 (Debian package sdcc-ucsim) and objcopy (binutils): apt install sdcc-ucsim binutils"
-        )
+        fail("differential.py: s51 or objcopy is missing: apt-get install --no-install-recommends sdcc-ucsim binutils")
     s51, objcopy = tools
     instructions = interrupts = programs = 0
     seed = options.seed
     opcodes = set()
     with tempfile.TemporaryDirectory() as folder:
-        image, ihx = os.path.join(folder, "p.bin"), os.path.join(folder, "p.ihx")
+        image, ihx = Path(folder) / "p.bin", Path(folder) / "p.ihx"
         while instructions < options.instructions:
             code, halt, ram_end = Generator(seed, TURNS).program()
-            with open(image, "wb") as file:
-                file.write(code)
+            image.write_bytes(code)
             subprocess.run([objcopy, "-I", "binary", "-O", "ihex", image, ihx], check=True)
             ours, taken, stderr = run_ours(options.run_bin, image)
             theirs = run_ucsim(s51, ihx, halt)
@@ -125,7 +122,7 @@ def main():
                 del ours[f"RAM {address:02X}"]
             different = {k: (v, theirs[k]) for k, v in ours.items() if v != theirs[k]}
             if different:
-                kept = os.path.join(os.getcwd(), f"mcs51_differs_{seed}.bin")
+                kept = Path.cwd() / f"mcs51_differs_{seed}.bin"
                 shutil.copy(image, kept)
                 print(f"seed {seed}: ours differs from uCsim; image kept in {kept}")
                 for name, (a, b) in different.items():
