@@ -179,17 +179,19 @@ def navd_path() -> Path:
 def _sub_command(options: argparse.Namespace) -> int:
     handle = open_dds(options, publishes=False)
     count = 0
+    gone: set[str] = set()
     last = time.monotonic()
     try:
         while options.limit is None or count < options.limit:
             for sample in handle.take(0.1):
                 last = time.monotonic()
-                if sample["gone"]:
+                if "json" in sample:
+                    head = json.dumps({"source": sample["source"], "published_ns": sample["published_ns"]})[:-1]
+                    print(f"{head}, {sample['json'].strip()[1:]}", flush=True)
+                    count += 1
+                if sample["gone"] and sample["source"] not in gone:
                     print(f"{sample['source']}: its publisher has gone", file=sys.stderr)
-                    continue
-                head = json.dumps({"source": sample["source"], "published_ns": sample["published_ns"]})[:-1]
-                print(f"{head}, {sample['json'].strip()[1:]}", flush=True)
-                count += 1
+                (gone.add if sample["gone"] else gone.discard)(sample["source"])
                 if count == options.limit:
                     break
             if options.timeout_s is not None and time.monotonic() - last > options.timeout_s:

@@ -98,7 +98,7 @@ nb::list take(Handle& handle, double timeout_s)
         d["source"] = samples[i].source;
         d["published_ns"] = samples[i].published_ns;
         d["gone"] = samples[i].gone != 0;
-        if (samples[i].gone == 0)
+        if (samples[i].valid != 0)
         {
             ins_nav_state_json(&samples[i].state, json.data(), json.size());
             d["json"] = json.data();

@@ -299,6 +299,10 @@ void mcs51_set_iram(mcs51_t* self, uint8_t address, uint8_t value)
 
 uint8_t mcs51_sfr(mcs51_t* self, uint8_t address)
 {
+    if (address < 0x80u)
+    {
+        return MCS51_ABSENT_SFR;
+    }
     if (address == PSW)
     {
         return mcs51_psw(self);
@@ -306,7 +310,7 @@ uint8_t mcs51_sfr(mcs51_t* self, uint8_t address)
     const uint64_t limit = earlier(mcs51_cycle(self), self->until);
     mcs51_sync(self, limit);
     mcs51_timers_sync(self, limit);
-    return address < 0x80u ? MCS51_ABSENT_SFR : self->mem[address];
+    return self->mem[address];
 }
 
 void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value)
