@@ -8,6 +8,7 @@
 #ifndef MCS51_INTERNAL_H_INCLUDED
 #define MCS51_INTERNAL_H_INCLUDED
 #include "emu_8051/mcs51.h"
+#include "registers.h"
 
 #define MCS51_FLASH 4096u
 #define MCS51_NEVER UINT64_MAX
@@ -19,54 +20,6 @@
 #define MCS51_ABSENT_XRAM 0xFFu ///< MOVX reads: the external bus is not modelled
 #define MCS51_WDT_CYCLES  16383u ///< overflow of the 14-bit watchdog, from the cycle in which it was last cleared
 #define MCS51_WDT_RESET   9u     ///< 98 oscillator periods of reset pulse, in whole machine cycles
-
-enum
-{
-    P0 = 0x80,
-    SP = 0x81,
-    DP0L = 0x82,
-    DP0H = 0x83,
-    DP1L = 0x84,
-    DP1H = 0x85,
-    PCON = 0x87,
-    TCON = 0x88,
-    TMOD = 0x89,
-    TL0 = 0x8A,
-    TL1 = 0x8B,
-    TH0 = 0x8C,
-    TH1 = 0x8D,
-    AUXR = 0x8E,
-    P1 = 0x90,
-    SCON = 0x98,
-    SBUF = 0x99,
-    P2 = 0xA0,
-    AUXR1 = 0xA2,
-    WDTRST = 0xA6,
-    IE = 0xA8,
-    P3 = 0xB0,
-    IP = 0xB8,
-    PSW = 0xD0,
-    ACC = 0xE0,
-    B = 0xF0
-};
-
-enum
-{
-    PCON_IDL = 0x01,
-    PCON_PD = 0x02,
-    PCON_POF = 0x10,
-    PCON_SMOD = 0x80,
-    AUXR_WDIDLE = 0x10,
-    IE_EA = 0x80,
-    SCON_RI = 0x01,
-    SCON_TI = 0x02,
-    SCON_RB8 = 0x04,
-    SCON_TB8 = 0x08,
-    SCON_REN = 0x10,
-    SCON_SM2 = 0x20,
-    P3_RXD = 0x01,
-    P3_TXD = 0x02
-};
 
 /// Interrupt sources in polling order; bit n of IE and IP; vector 8 n + 3.
 enum
