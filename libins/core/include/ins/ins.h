@@ -6,6 +6,7 @@
 #include "ins/attitude.h"
 #include "ins/config.h"
 #include "ins/coning.h"
+#include "ins/fiter.h"
 #include "ins/geodesy.h"
 #include "ins/handshake.h"
 #include "ins/ins_math.h"
