@@ -1,0 +1,572 @@
+/// \file   test_gps_dr.cpp
+/// \brief  GPS axis filter, dead reckoning, vehicle filters, fusion, switch: the reference runs, limits, refusals.
+/// SPDX-License-Identifier: MIT
+#include "core_test.h"
+using namespace core_test;
+
+namespace
+{
+constexpr double TOL_MODEL = INS_TOL(1e-10, 2e-6); ///< Phi and Q; the file's come from Van Loan, good to 1e-11
+constexpr double TOL_RUN = INS_TOL(1e-11, 2e-3);   ///< of an element over 1 or its own size
+constexpr double TOL_STEP = INS_TOL(1e-12, 2e-5);
+constexpr ins_real NOT_A_NUMBER = std::numeric_limits<ins_real>::quiet_NaN();
+
+ins_real number(const json& value)
+{
+    return static_cast<ins_real>(value.get<double>());
+}
+
+std::vector<ins_real> numbers(const json& list)
+{
+    std::vector<ins_real> r;
+    for (const json& value : list)
+    {
+        if (value.is_array())
+        {
+            const auto inner = numbers(value);
+            r.insert(r.end(), inner.begin(), inner.end());
+        }
+        else
+        {
+            r.push_back(number(value));
+        }
+    }
+    return r;
+}
+
+void compare(Worst& worst, const ins_real* got, const json& want, const std::string& place)
+{
+    size_t i = 0;
+    for (const json& row : want)
+    {
+        for (const json& value : row.is_array() ? row : json::array({row}))
+        {
+            const double w = value;
+            worst.take(static_cast<double>(got[i++]), w, std::max(1.0, std::fabs(w)), place);
+        }
+    }
+    ASSERT_GT(i, 0u) << place;
+}
+
+std::vector<ins_real> diagonal(const ins_real* P, size_t n)
+{
+    std::vector<ins_real> d;
+    for (size_t i = 0; i < n; i++)
+    {
+        d.push_back(P[(n + 1) * i]);
+    }
+    return d;
+}
+
+ins_gps_axis_config_t gps_config(const json& g)
+{
+    return {number(g["T"]),
+            number(g["tau_a"]),
+            number(g["tau_eps"]),
+            static_cast<ins_real>(std::sqrt(g["sigma_a2"].get<double>())),
+            static_cast<ins_real>(std::sqrt(g["sigma_eps2"].get<double>())),
+            number(g["R"]),
+            0,
+            0};
+}
+} // namespace
+
+TEST(vector_gps_dr, gps_axis)
+{
+    const json g = load("gps_dr.json")["gps"];
+    const ins_gps_axis_config_t cfg = gps_config(g);
+    const auto var = diagonal(numbers(g["P0"]).data(), 4);
+    ins_gps_axis_t f;
+    ASSERT_EQ(ins_gps_axis_init(&f, &cfg, var.data()), INS_OK);
+    Worst model;
+    compare(model, f.Phi, g["Phi"], "Phi");
+    compare(model, f.Q, g["Q"], "Q");
+    compare(model, f.u,
+            json(std::vector<double>{g["U_current_stat"][0], g["U_current_stat"][1], g["U_current_stat"][2]}), "U");
+    expect_within(model, TOL_MODEL, "GPS axis model");
+    Worst run;
+    size_t next = 0;
+    for (size_t k = 0; k < g["z"].size(); k++)
+    {
+        ASSERT_EQ(ins_gps_axis_step(&f, number(g["z"][k][0]), nullptr), INS_OK);
+        if (next < g["steps"].size() && g["steps"][next]["k"].get<size_t>() == k)
+        {
+            compare(run, f.x, g["steps"][next]["x"], "x " + std::to_string(k));
+            compare(run, diagonal(f.P, 4).data(), g["steps"][next]["P_diag"], "P " + std::to_string(k));
+            compare(run, f.K, g["steps"][next]["K"], "K " + std::to_string(k));
+            next++;
+        }
+    }
+    EXPECT_EQ(next, g["steps"].size());
+    expect_within(run, TOL_RUN, "GPS axis run");
+    for (int k = 0; k < 2000; k++)
+    {
+        ASSERT_EQ(ins_gps_axis_step(&f, 0, nullptr), INS_OK);
+    }
+    Worst steady;
+    compare(steady, f.K, g["steady"]["K"], "K");
+    compare(steady, f.P, g["steady"]["P_plus"], "P");
+    expect_within(steady, INS_TOL(1e-7, 1e-3), "GPS axis steady state");
+}
+
+/// The series below dt/tau = 1 and the closed forms above meet, and their limits are the white-jerk and the white-acceleration model.
+TEST(gps_axis, model_is_continuous_over_dt_by_tau)
+{
+    const ins_real var[4] = {1, 1, 1, 1};
+    Worst seam;
+    ins_gps_axis_t below;
+    ins_gps_axis_t above;
+    ins_gps_axis_config_t cfg = {1, 1, 100, 1, 1, 1, 0, 0};
+    const ins_real step = INS_TOL(1e-14, 1e-6f);
+    cfg.tau_acceleration = 1 + step;
+    ASSERT_EQ(ins_gps_axis_init(&below, &cfg, var), INS_OK);
+    cfg.tau_acceleration = 1 - step;
+    ASSERT_EQ(ins_gps_axis_init(&above, &cfg, var), INS_OK);
+    for (size_t i = 0; i < 16; i++)
+    {
+        seam.take(static_cast<double>(below.Q[i]), static_cast<double>(above.Q[i]), 1, "Q");
+        seam.take(static_cast<double>(below.Phi[i]), static_cast<double>(above.Phi[i]), 1, "Phi");
+    }
+    expect_within(seam, INS_TOL(1e-13, 2e-5), "Singer model, series against closed form at dt = tau");
+
+    cfg.tau_acceleration = INS_C(1e6); // a -> 0: Q of white jerk of density 2/tau
+    ASSERT_EQ(ins_gps_axis_init(&below, &cfg, var), INS_OK);
+    const double q = 2e-6;
+    const double want[] = {q / 20, q / 8, q / 6, q / 3, q / 2, q};
+    const size_t at[] = {0, 1, 2, 5, 6, 10};
+    for (size_t i = 0; i < 6; i++)
+    {
+        EXPECT_NEAR(static_cast<double>(below.Q[at[i]]), want[i], want[i] * INS_TOL(3e-6, 1e-5)) << i;
+    }
+}
+
+TEST(gps_axis, current_statistical_model_follows_the_mean)
+{
+    ins_gps_axis_config_t cfg = {1, 20, 100, 1, 5, 9, 0, 10};
+    const ins_real var[4] = {1, 1, 1, 1};
+    ins_gps_axis_t f;
+    ASSERT_EQ(ins_gps_axis_init(&f, &cfg, var), INS_OK);
+    f.x[1] = 3;
+    f.x[2] = 2;
+    const ins_real before = f.P[10];
+    ins_gps_axis_predict(&f);
+    EXPECT_NEAR(static_cast<double>(f.x[0]), 3 + 0.5 * 2, 1e-5) << "a constant acceleration is carried on";
+    EXPECT_NEAR(static_cast<double>(f.x[1]), 3 + 2, 1e-5);
+    EXPECT_NEAR(static_cast<double>(f.x[2]), 2, 1e-6);
+    const double phi = std::exp(-1.0 / 20);
+    const double added = (4 - PI) / PI * 8 * 8 * (1 - phi * phi);
+    EXPECT_NEAR(static_cast<double>(f.P[10]), static_cast<double>(before) * phi * phi + added, 1e-5);
+    f.x[2] = 11; // beyond the limit there is no room: no noise
+    const ins_real variance = f.P[10];
+    ins_gps_axis_predict(&f);
+    EXPECT_NEAR(static_cast<double>(f.P[10]), static_cast<double>(variance) * phi * phi, 1e-5);
+}
+
+TEST(gps_axis, refusals_and_gate)
+{
+    const ins_gps_axis_config_t good = {1, 20, 100, 1, 5, 9, INS_KALMAN_GATE_99, 0};
+    const ins_real var[4] = {1, 1, 1, 1};
+    ins_gps_axis_t f;
+    ins_real ins_gps_axis_config_t::*const members[] = {&ins_gps_axis_config_t::dt,
+                                                        &ins_gps_axis_config_t::tau_acceleration,
+                                                        &ins_gps_axis_config_t::tau_fix,
+                                                        &ins_gps_axis_config_t::sigma_acceleration,
+                                                        &ins_gps_axis_config_t::sigma_fix,
+                                                        &ins_gps_axis_config_t::r,
+                                                        &ins_gps_axis_config_t::acceleration_max};
+    for (const auto member : members)
+    {
+        for (const ins_real bad : {INS_C(-1.0), NOT_A_NUMBER})
+        {
+            ins_gps_axis_config_t cfg = good;
+            cfg.*member = bad;
+            EXPECT_EQ(ins_gps_axis_init(&f, &cfg, var), INS_E_RANGE);
+        }
+    }
+    for (const double tau : {91.0, 100.0, 109.0})
+    {
+        ins_gps_axis_config_t cfg = good;
+        cfg.tau_acceleration = static_cast<ins_real>(tau);
+        EXPECT_EQ(ins_gps_axis_init(&f, &cfg, var), INS_E_RANGE) << "the fix error is not observable at tau " << tau;
+    }
+    for (size_t i = 0; i < 4; i++)
+    {
+        ins_real wrong[4] = {1, 1, 1, 1};
+        wrong[i] = -1;
+        EXPECT_EQ(ins_gps_axis_init(&f, &good, wrong), INS_E_RANGE);
+    }
+    ASSERT_EQ(ins_gps_axis_init(&f, &good, var), INS_OK);
+    ins_gps_axis_t predicted = f;
+    ins_gps_axis_predict(&predicted);
+    ins_real nis = 0;
+    EXPECT_EQ(ins_gps_axis_step(&f, 1000, &nis), INS_E_GATE);
+    EXPECT_GT(nis, 1000);
+    EXPECT_TRUE(std::equal(f.P, f.P + 16, predicted.P)) << "refused, but the epoch has passed";
+    EXPECT_EQ(ins_gps_axis_step(&f, NOT_A_NUMBER, nullptr), INS_E_RANGE);
+}
+
+TEST(vector_gps_dr, dead_reckoning)
+{
+    Worst worst;
+    const json cases = load("gps_dr.json")["dead_reckoning"];
+    for (const json& c : cases)
+    {
+        ins_real pose[3] = {number(c["e"]), number(c["n"]), number(c["heading"])};
+        ASSERT_EQ(ins_dead_reckoning_step(pose, number(c["s"]), number(c["dheading"])), INS_OK);
+        worst.take(static_cast<double>(pose[0]), c["out"][0], 100, c.dump());
+        worst.take(static_cast<double>(pose[1]), c["out"][1], 100, c.dump());
+        worst.take(std::remainder(static_cast<double>(pose[2]) - c["out"][2].get<double>(), 2 * PI), 0, 1, c.dump());
+    }
+    expect_within(worst, INS_TOL(1e-15, 1e-6), "dead reckoning");
+}
+
+TEST(dead_reckoning, a_circle_closes_at_any_step)
+{
+    const double radius = 50;
+    for (const int steps : {4, 100, 5000})
+    {
+        ins_real pose[3] = {10, 20, 3};
+        for (int k = 0; k < steps; k++)
+        {
+            ASSERT_EQ(ins_dead_reckoning_step(pose, static_cast<ins_real>(2 * PI * radius / steps),
+                                              static_cast<ins_real>(-2 * PI / steps)),
+                      INS_OK);
+        }
+        EXPECT_NEAR(static_cast<double>(pose[0]), 10, INS_TOL(1e-10, 2e-2)) << steps;
+        EXPECT_NEAR(static_cast<double>(pose[1]), 20, INS_TOL(1e-10, 2e-2)) << steps;
+        EXPECT_NEAR(static_cast<double>(pose[2]), 3, INS_TOL(1e-11, 1e-3)) << steps;
+    }
+    ins_real pose[3] = {1, 2, 3};
+    EXPECT_EQ(ins_dead_reckoning_step(pose, 1, 1001), INS_E_RANGE);
+    EXPECT_EQ(ins_dead_reckoning_step(pose, 1, NOT_A_NUMBER), INS_E_RANGE);
+    EXPECT_EQ(ins_dead_reckoning_step(pose, NOT_A_NUMBER, 1), INS_E_RANGE);
+    EXPECT_EQ(pose[0], 1);
+    pose[2] = 2000;
+    EXPECT_EQ(ins_dead_reckoning_step(pose, 1, 1), INS_E_RANGE);
+}
+
+TEST(dead_reckoning, sine_and_cosine_all_around)
+{
+    Worst worst;
+    for (double heading = -1000; heading <= 1000; heading += 0.0371)
+    {
+        const auto h = static_cast<ins_real>(heading);
+        ins_real pose[3] = {0, 0, h};
+        ASSERT_EQ(ins_dead_reckoning_step(pose, 1, 0), INS_OK);
+        const std::string place = std::to_string(heading);
+        worst.take(static_cast<double>(pose[0]), std::sin(static_cast<double>(h)), 1, "sin " + place);
+        worst.take(static_cast<double>(pose[1]), std::cos(static_cast<double>(h)), 1, "cos " + place);
+        worst.take(static_cast<double>(pose[2]), std::remainder(static_cast<double>(h), 2 * PI), 1, "wrap " + place);
+    }
+    expect_within(worst, INS_TOL(3e-13, 1.5e-4),
+                  "sine, cosine, wrap up to 1000 rad"); // half an ulp of 1000 is 6e-14, 3e-5
+}
+
+TEST(vector_gps_dr, dr_ekf)
+{
+    const json d = load("gps_dr.json")["dr"];
+    ins_dr_ekf_config_t cfg = {number(d["T"]),
+                               {number(d["tau_e"]), number(d["tau_n"])},
+                               {static_cast<ins_real>(std::sqrt(d["sigma2"][0].get<double>())),
+                                static_cast<ins_real>(std::sqrt(d["sigma2"][1].get<double>()))},
+                               number(d["R"][0][0]),
+                               number(d["R"][1][1]),
+                               number(d["vmin"]),
+                               number(d["vzero"]),
+                               0};
+    const auto x0 = numbers(d["x0"]);
+    const auto var = diagonal(numbers(d["P0"]).data(), 6);
+    ins_dr_ekf_t f;
+    ASSERT_EQ(ins_dr_ekf_init(&f, &cfg, x0.data(), var.data()), INS_OK);
+    Worst model;
+    compare(model, f.Phi, d["Phi"], "Phi");
+    compare(model, f.Q, d["Q"], "Q");
+    expect_within(model, TOL_MODEL, "DR model");
+    Worst run;
+    size_t next = 0;
+    unsigned all = 0;
+    unsigned partly = 0;
+    for (size_t k = 0; k < d["z"].size(); k++)
+    {
+        ASSERT_EQ(ins_dr_ekf_step(&f, number(d["z"][k][0]), number(d["z"][k][1])), INS_OK) << k;
+        all += f.used == (INS_DR_RATE | INS_DR_DISTANCE);
+        partly += f.used == INS_DR_DISTANCE;
+        if (next < d["steps"].size() && d["steps"][next]["k"].get<size_t>() == k + 1)
+        {
+            compare(run, f.x, d["steps"][next]["x"], "x " + std::to_string(k));
+            compare(run, diagonal(f.P, 6).data(), d["steps"][next]["P_diag"], "P " + std::to_string(k));
+            next++;
+        }
+    }
+    EXPECT_EQ(next, d["steps"].size());
+    EXPECT_GT(all, 200u);
+    std::printf("%u steps with both, %u with the odometer alone\n", all, partly);
+    expect_within(run, TOL_RUN, "DR filter run");
+}
+
+TEST(dr_ekf, standing_still_uses_nothing_and_bad_input_is_refused)
+{
+    const ins_dr_ekf_config_t good = {INS_C(0.1), {5, 5}, {1, 1}, INS_C(1e-4), INS_C(1e-3), INS_C(0.5), INS_C(1e-3), 0};
+    const ins_real x0[6] = {0, 0, 0, 0, 0, 0};
+    const ins_real var[6] = {1, 1, 1, 1, 1, 1};
+    ins_dr_ekf_t f;
+    ASSERT_EQ(ins_dr_ekf_init(&f, &good, x0, var), INS_OK);
+    ASSERT_EQ(ins_dr_ekf_step(&f, 1, 1), INS_OK);
+    EXPECT_EQ(f.used, 0u);
+    f.x[2] = INS_C(0.1);
+    ASSERT_EQ(ins_dr_ekf_step(&f, 1, INS_C(0.01)), INS_OK);
+    EXPECT_EQ(f.used, INS_DR_DISTANCE);
+
+    ins_dr_ekf_config_t gated = good;
+    gated.gate = INS_KALMAN_GATE_999;
+    const ins_real moving[6] = {0, 0, 8, 0, 0, 0};
+    const ins_real sure[6] = {1, 1, INS_C(1e-4), INS_C(1e-4), INS_C(1e-4), INS_C(1e-4)};
+    ASSERT_EQ(ins_dr_ekf_init(&f, &gated, moving, sure), INS_OK);
+    EXPECT_EQ(ins_dr_ekf_step(&f, 3, INS_C(0.8)), INS_E_GATE) << "a yaw rate of 3 rad/s out of nothing";
+    EXPECT_EQ(f.used, INS_DR_DISTANCE);
+    EXPECT_GT(f.nis[0], gated.gate);
+    EXPECT_EQ(f.gated, 1u);
+
+    const ins_dr_ekf_t before = f;
+    EXPECT_EQ(ins_dr_ekf_step(&f, NOT_A_NUMBER, 1), INS_E_RANGE);
+    EXPECT_EQ(ins_dr_ekf_step(&f, 1, NOT_A_NUMBER), INS_E_RANGE);
+    EXPECT_TRUE(std::equal(f.P, f.P + 36, before.P));
+    ins_real ins_dr_ekf_config_t::*const members[] = {&ins_dr_ekf_config_t::dt,         &ins_dr_ekf_config_t::r_rate,
+                                                      &ins_dr_ekf_config_t::r_distance, &ins_dr_ekf_config_t::v_min,
+                                                      &ins_dr_ekf_config_t::v_zero,     &ins_dr_ekf_config_t::gate};
+    for (const auto member : members)
+    {
+        for (const ins_real bad : {INS_C(-1.0), NOT_A_NUMBER})
+        {
+            ins_dr_ekf_config_t cfg = good;
+            cfg.*member = bad;
+            EXPECT_EQ(ins_dr_ekf_init(&f, &cfg, x0, var), INS_E_RANGE);
+        }
+    }
+    for (size_t i = 0; i < 2; i++)
+    {
+        ins_dr_ekf_config_t cfg = good;
+        cfg.tau[i] = 0;
+        EXPECT_EQ(ins_dr_ekf_init(&f, &cfg, x0, var), INS_E_RANGE);
+        cfg = good;
+        cfg.sigma[i] = -1;
+        EXPECT_EQ(ins_dr_ekf_init(&f, &cfg, x0, var), INS_E_RANGE);
+    }
+    const ins_real bad_x[6] = {0, NOT_A_NUMBER, 0, 0, 0, 0};
+    const ins_real bad_var[6] = {1, 1, 1, 1, 1, -1};
+    EXPECT_EQ(ins_dr_ekf_init(&f, &good, bad_x, var), INS_E_RANGE);
+    EXPECT_EQ(ins_dr_ekf_init(&f, &good, x0, bad_var), INS_E_RANGE);
+}
+
+TEST(vector_gps_dr, unicycle)
+{
+    const json u = load("gps_dr.json")["dr_unicycle"];
+    const ins_unicycle_config_t cfg = {
+        number(u["qv"]), number(u["qb"]), number(u["qk"]), number(u["rw"]), number(u["rs"]), 0, 0};
+    const auto x0 = numbers(u["x0"]);
+    const auto var = diagonal(numbers(u["P0"]).data(), 6);
+    const ins_real T = number(u["T"]);
+    ins_unicycle_t f;
+    ASSERT_EQ(ins_unicycle_init(&f, &cfg, x0.data(), var.data()), INS_OK);
+    Worst run;
+    size_t next = 0;
+    for (size_t k = 0; k < u["z"].size(); k++)
+    {
+        const json& z = u["z"][k];
+        ASSERT_EQ(ins_unicycle_odometer(&f, T, number(z[1]), nullptr), INS_OK);
+        ASSERT_EQ(ins_unicycle_predict(&f, T, number(z[0])), INS_OK);
+        if (!z[2].is_null())
+        {
+            ASSERT_EQ(ins_unicycle_gps(&f, number(z[2][0]), number(z[2][1]), number(u["Rgps"]), nullptr), INS_OK);
+        }
+        if (next < u["steps"].size() && u["steps"][next]["k"].get<size_t>() == k + 1)
+        {
+            auto x = std::vector<ins_real>(f.x, f.x + 6);
+            const double want = u["steps"][next]["x"][2];
+            x[2] = static_cast<ins_real>(want + std::remainder(static_cast<double>(x[2]) - want, 2 * PI));
+            compare(run, x.data(), u["steps"][next]["x"], "x " + std::to_string(k));
+            compare(run, diagonal(f.P, 6).data(), u["steps"][next]["P_diag"], "P " + std::to_string(k));
+            next++;
+        }
+    }
+    EXPECT_EQ(next, u["steps"].size());
+    expect_within(run, TOL_RUN, "unicycle run");
+    std::printf("bias %.5f of %.5f rad/s, scale %.4f of %.4f\n", static_cast<double>(f.x[INS_UNICYCLE_BIAS]),
+                u["truth_bias"].get<double>(), static_cast<double>(f.x[INS_UNICYCLE_SCALE]),
+                u["truth_scale"].get<double>());
+    EXPECT_NEAR(static_cast<double>(f.x[INS_UNICYCLE_BIAS]), u["truth_bias"].get<double>(),
+                4 * std::sqrt(static_cast<double>(f.P[7 * INS_UNICYCLE_BIAS])));
+}
+
+TEST(unicycle, heading_survives_a_stop_and_standing_still_finds_the_bias)
+{
+    const ins_unicycle_config_t cfg = {4, INS_C(1e-10), INS_C(1e-10), INS_C(7.6e-5), INS_C(0.0025), 0, 0};
+    const ins_real x0[6] = {0, 0, 1, 8, 0, 1};
+    const ins_real var[6] = {1, 1, INS_C(1e-4), 1, INS_C(3e-4), INS_C(1e-4)};
+    const ins_real T = INS_C(0.1);
+    const ins_real bias = INS_C(0.0087);
+    ins_unicycle_t f;
+    ASSERT_EQ(ins_unicycle_init(&f, &cfg, x0, var), INS_OK);
+    for (int k = 0; k < 100; k++)
+    {
+        ASSERT_EQ(ins_unicycle_odometer(&f, T, 0, nullptr), INS_OK);
+        ASSERT_EQ(ins_unicycle_still(&f, bias, INS_C(1e-4)), INS_OK);
+        ASSERT_EQ(ins_unicycle_predict(&f, T, bias), INS_OK);
+    }
+    EXPECT_NEAR(static_cast<double>(f.x[INS_UNICYCLE_HEADING]), 1, 1e-2);
+    EXPECT_NEAR(static_cast<double>(f.x[INS_UNICYCLE_BIAS]), static_cast<double>(bias), 1e-4);
+    EXPECT_NEAR(static_cast<double>(f.x[INS_UNICYCLE_SPEED]), 0, 1e-2);
+}
+
+TEST(unicycle, fixes_are_judged_as_one_and_bad_input_is_refused)
+{
+    const ins_unicycle_config_t good = {4, 0, 0, INS_C(1e-4), INS_C(0.0025), INS_KALMAN_GATE_99, INS_KALMAN_GATE2_99};
+    const ins_real x0[6] = {0, 0, 0, 8, 0, 1};
+    const ins_real var[6] = {5, 5, 1, 1, 0, 0};
+    ins_unicycle_t f;
+    ASSERT_EQ(ins_unicycle_init(&f, &good, x0, var), INS_OK);
+    f.P[1] = f.P[6] = 3;
+    const ins_unicycle_t before = f;
+    ins_real nis = 0;
+    // S = [9 3; 3 9]: v = (9, -6) has nis v' S^-1 v = (81 9 + 2 54 3 + 36 9)/72 = 19.125
+    EXPECT_EQ(ins_unicycle_gps(&f, 9, -6, 4, &nis), INS_E_GATE);
+    EXPECT_NEAR(static_cast<double>(nis), 19.125, 1e-5);
+    EXPECT_TRUE(std::equal(f.x, f.x + 6, before.x) && std::equal(f.P, f.P + 36, before.P));
+    EXPECT_EQ(ins_unicycle_gps(&f, NOT_A_NUMBER, 0, 4, &nis), INS_E_RANGE);
+    EXPECT_EQ(ins_unicycle_gps(&f, 0, 0, 0, &nis), INS_E_RANGE);
+    EXPECT_EQ(ins_unicycle_gps(&f, 3, 3, 4, &nis), INS_OK);
+    EXPECT_NEAR(static_cast<double>(nis), 1.5, 1e-5);
+    EXPECT_EQ(ins_unicycle_odometer(&f, INS_C(0.1), 100, &nis), INS_E_GATE);
+    EXPECT_GT(nis, good.gate);
+    EXPECT_EQ(ins_unicycle_odometer(&f, INS_C(0.1), NOT_A_NUMBER, nullptr), INS_E_RANGE);
+    EXPECT_EQ(ins_unicycle_predict(&f, 0, 0), INS_E_RANGE);
+    EXPECT_EQ(ins_unicycle_predict(&f, INS_C(0.1), NOT_A_NUMBER), INS_E_RANGE);
+    EXPECT_EQ(ins_unicycle_predict(&f, 1, 2000), INS_E_RANGE);
+    EXPECT_EQ(ins_unicycle_still(&f, NOT_A_NUMBER, 1), INS_E_RANGE);
+    EXPECT_EQ(ins_unicycle_still(&f, 0, 0), INS_E_RANGE);
+    ins_real ins_unicycle_config_t::*const members[] = {
+        &ins_unicycle_config_t::q_speed, &ins_unicycle_config_t::q_bias,     &ins_unicycle_config_t::q_scale,
+        &ins_unicycle_config_t::r_rate,  &ins_unicycle_config_t::r_distance, &ins_unicycle_config_t::gate,
+        &ins_unicycle_config_t::gate_gps};
+    for (const auto member : members)
+    {
+        for (const ins_real bad : {INS_C(-1.0), NOT_A_NUMBER})
+        {
+            ins_unicycle_config_t cfg = good;
+            cfg.*member = bad;
+            EXPECT_EQ(ins_unicycle_init(&f, &cfg, x0, var), INS_E_RANGE);
+        }
+    }
+    for (size_t i = 0; i < 6; i++)
+    {
+        ins_real x[6] = {0, 0, 0, 8, 0, 1};
+        ins_real v[6] = {1, 1, 1, 1, 1, 1};
+        x[i] = NOT_A_NUMBER;
+        EXPECT_EQ(ins_unicycle_init(&f, &good, x, var), INS_E_RANGE);
+        v[i] = -1;
+        EXPECT_EQ(ins_unicycle_init(&f, &good, x0, v), INS_E_RANGE);
+    }
+}
+
+TEST(vector_gps_dr, fusion_and_information_sharing)
+{
+    Worst worst;
+    const json cases = load("gps_dr.json")["fusion"];
+    ASSERT_FALSE(cases.empty());
+    for (const json& c : cases)
+    {
+        const auto n = static_cast<unsigned>(c["x_fused"].size());
+        std::vector<ins_real> info(n * n, 9);
+        std::vector<ins_real> y(n, 9);
+        std::vector<ins_real> x(n);
+        std::vector<ins_real> P(n * n);
+        std::vector<ins_real> work(n * n);
+        ins_fusion_clear(n, info.data(), y.data());
+        EXPECT_EQ(ins_fusion_solve(n, info.data(), y.data(), x.data(), P.data()), INS_E_RANGE) << "nothing is known";
+        for (size_t i = 0; i < c["x"].size(); i++)
+        {
+            ASSERT_EQ(ins_fusion_add(n, info.data(), y.data(), numbers(c["x"][i]).data(), numbers(c["P"][i]).data(),
+                                     work.data()),
+                      INS_OK);
+        }
+        ASSERT_EQ(ins_fusion_solve(n, info.data(), y.data(), x.data(), P.data()), INS_OK);
+        compare(worst, x.data(), c["x_fused"], "x");
+        compare(worst, P.data(), c["P_fused"], "P");
+        for (size_t i = 0; i < c["beta"].size(); i++)
+        {
+            ASSERT_EQ(ins_fusion_share(n, P.data(), number(c["beta"][i]), work.data()), INS_OK);
+            compare(worst, work.data(), c["P_local_reset"][i], "P shared");
+        }
+        const auto before = info;
+        const std::vector<ins_real> indefinite(n * n, -1);
+        EXPECT_EQ(ins_fusion_add(n, info.data(), y.data(), x.data(), indefinite.data(), work.data()), INS_E_RANGE);
+        EXPECT_EQ(info, before);
+        for (const ins_real beta : {INS_C(0.0), INS_C(1.5), NOT_A_NUMBER})
+        {
+            EXPECT_EQ(ins_fusion_share(n, P.data(), beta, work.data()), INS_E_RANGE);
+        }
+    }
+    expect_within(worst, TOL_STEP, "fusion");
+}
+
+TEST(vector_gps_dr, switch_with_hysteresis)
+{
+    const json s = load("gps_dr.json")["switch"];
+    const ins_switch_config_t cfg = {number(s["params"]["hmax"]), number(s["params"]["gate"]),
+                                     s["params"]["smin"].get<uint_least8_t>(),
+                                     s["params"]["n_back"].get<uint_least8_t>()};
+    EXPECT_EQ(cfg.back, INS_SWITCH_BACK_GOOD);
+    ins_switch_t good;
+    ins_switch_t paper;
+    ins_switch_config_t at_once = cfg;
+    at_once.back = INS_SWITCH_BACK_PAPER;
+    ASSERT_EQ(ins_switch_init(&good, &cfg), INS_OK);
+    ASSERT_EQ(ins_switch_init(&paper, &at_once), INS_OK);
+    int changes_good = 0;
+    int changes_paper = 0;
+    for (size_t k = 0; k < s["epochs"].size(); k++)
+    {
+        const json& e = s["epochs"][k];
+        const ins_real nis = e["nis"].is_null() ? 0 : number(e["nis"]);
+        const int before_good = good.mode;
+        const int before_paper = paper.mode;
+        const int mode =
+            ins_switch_epoch(&good, e["valid"].get<bool>(), e["sats"].get<unsigned>(), number(e["hdop"]), nis);
+        EXPECT_EQ(mode == INS_SWITCH_GPS ? "GPS" : "DR", s["expected"][k]["mode"].get<std::string>()) << k;
+        EXPECT_EQ(good.good != 0, s["expected"][k]["good"].get<bool>()) << k;
+        const int m =
+            ins_switch_epoch(&paper, e["valid"].get<bool>(), e["sats"].get<unsigned>(), number(e["hdop"]), nis);
+        EXPECT_EQ(m == INS_SWITCH_GPS, s["expected"][k]["good"].get<bool>()) << "the paper's follows each epoch " << k;
+        changes_good += mode != before_good;
+        changes_paper += m != before_paper;
+    }
+    std::printf("[ figure   ] changes of mode in %zu epochs: %d with hysteresis, %d as printed\n", s["epochs"].size(),
+                changes_good, changes_paper);
+    EXPECT_LT(changes_good, changes_paper);
+}
+
+TEST(gps_dr_switch, limits_and_refusals)
+{
+    const ins_switch_config_t cfg = {4, INS_KALMAN_GATE2_99, 4, 1};
+    ins_switch_t s;
+    ASSERT_EQ(ins_switch_init(&s, &cfg), INS_OK);
+    EXPECT_EQ(ins_switch_epoch(&s, 1, 4, 4, INS_KALMAN_GATE2_99), INS_SWITCH_GPS) << "the limits are good";
+    EXPECT_EQ(ins_switch_epoch(&s, 0, 4, 4, 0), INS_SWITCH_DR);
+    EXPECT_EQ(ins_switch_epoch(&s, 1, 3, 4, 0), INS_SWITCH_DR);
+    EXPECT_EQ(ins_switch_epoch(&s, 1, 4, NOT_A_NUMBER, 0), INS_SWITCH_DR);
+    EXPECT_EQ(ins_switch_epoch(&s, 1, 4, 1, NOT_A_NUMBER), INS_SWITCH_DR);
+    EXPECT_EQ(ins_switch_epoch(&s, 1, 4, 1, 10), INS_SWITCH_DR);
+    for (int k = 0; k < 300; k++) // more than a counter of 8 bits holds
+    {
+        EXPECT_EQ(ins_switch_epoch(&s, 1, 4, 1, 0), INS_SWITCH_GPS);
+    }
+    const ins_switch_config_t no_gate = {4, 0, 4, 1};
+    ASSERT_EQ(ins_switch_init(&s, &no_gate), INS_OK);
+    EXPECT_EQ(ins_switch_epoch(&s, 1, 4, 1, 1000), INS_SWITCH_GPS);
+    for (const ins_switch_config_t& bad :
+         {ins_switch_config_t{4, 1, 4, 0}, ins_switch_config_t{0, 1, 4, 1}, ins_switch_config_t{NOT_A_NUMBER, 1, 4, 1},
+          ins_switch_config_t{4, -1, 4, 1}})
+    {
+        EXPECT_EQ(ins_switch_init(&s, &bad), INS_E_RANGE);
+    }
+}
