@@ -5,15 +5,27 @@
 #include <string.h>
 
 // FIELD copies a member, ARRAY an array; both are of the same type on both sides.
-#define SAME_FIELDS(FIELD, ARRAY)                                                                                      \
-    FIELD(index)                                                                                                       \
-    FIELD(t_s)                                                                                                         \
-    ARRAY(q_nb)                                                                                                        \
-    ARRAY(euler_rad)                                                                                                   \
-    ARRAY(w_ib_b)                                                                                                      \
-    ARRAY(dtheta_b) FIELD(seq) FIELD(bridged) FIELD(status) FIELD(used) FIELD(missed) FIELD(counts.accepted)           \
-        FIELD(counts.lost) FIELD(counts.invalid) FIELD(counts.duplicates) FIELD(counts.corrupt) FIELD(counts.timeouts) \
-            FIELD(counts.stray)
+// clang-format off
+#define SAME_FIELDS(FIELD, ARRAY) \
+    FIELD(index)                  \
+    FIELD(t_s)                    \
+    ARRAY(q_nb)                   \
+    ARRAY(euler_rad)              \
+    ARRAY(w_ib_b)                 \
+    ARRAY(dtheta_b)               \
+    FIELD(seq)                    \
+    FIELD(bridged)                \
+    FIELD(status)                 \
+    FIELD(used)                   \
+    FIELD(missed)                 \
+    FIELD(counts.accepted)        \
+    FIELD(counts.lost)            \
+    FIELD(counts.invalid)         \
+    FIELD(counts.duplicates)      \
+    FIELD(counts.corrupt)         \
+    FIELD(counts.timeouts)        \
+    FIELD(counts.stray)
+// clang-format on
 
 void dds_from_state(const ins_nav_state_t* state, libins_NavState* message)
 {
