@@ -292,7 +292,7 @@ TEST(fiter, ends_for_any_increments_up_to_its_promise)
     // The worst case of the fit is increments of alternating sign; the series must end, and be a rotation.
     for (int form = 0; form < INS_FITER_FORM_COUNT; form++)
     {
-        const ins_real largest = form == INS_FITER_BLOCK3 ? INS_C(0.1) : INS_C(0.5);
+        const ins_real largest = form == INS_FITER_BLOCK3 ? INS_C(0.05) : INS_C(0.5);
         for (unsigned signs = 0; signs < 1u << 15; signs += 5)
         {
             ins_real theta[3 * INS_FITER_SAMPLES_MAX];

@@ -40,6 +40,19 @@ ins_status_t ins_attitude_step(ins_attitude_t* self, const ins_real dtheta_b[3])
     return ins_attitude_step_any(self, dtheta_b);
 }
 
+ins_status_t ins_attitude_turn_frame(ins_attitude_t* self, const ins_real dzeta_n[3])
+{
+    const ins_real back[3] = {-dzeta_n[0], -dzeta_n[1], -dzeta_n[2]};
+    ins_real dq[4];
+    if (ins_quat_from_rotvec(back, dq) != INS_OK)
+    {
+        return INS_E_RANGE;
+    }
+    quat_mul(dq, self->q_nb, self->q_nb);
+    ins_quat_normalise_approx(self->q_nb);
+    return INS_OK;
+}
+
 ins_status_t ins_attitude_jump(ins_attitude_t* self, const ins_real phi_b[3])
 {
     ins_real dq[4];

@@ -3,6 +3,15 @@
 /// SPDX-License-Identifier: MIT
 #include "coning_internal.h"
 
+/// Two previous, K1 + 2 K2 = 1/12, the given -K2 of least peak drift over a band (tools/band.py).
+#define SHAPED(minus_k2)                                                                                               \
+    {                                                                                                                  \
+        3, 0,                                                                                                          \
+        {                                                                                                              \
+            R(1, 12) + 2 * INS_C(minus_k2), -INS_C(minus_k2)                                                           \
+        }                                                                                                              \
+    }
+
 const ins_coning_row_t ins_coning_rows[INS_CONING_FORM_COUNT] = {
     [INS_CONING_ONE] = {1, 0, {0}},
     [INS_CONING_HIST1] = {2, 0, {R(1, 12)}},
@@ -15,6 +24,9 @@ const ins_coning_row_t ins_coning_rows[INS_CONING_FORM_COUNT] = {
     [INS_CONING_BLOCK3_OPT] = {3, 1, {R(27, 40), R(9, 20), 0, R(27, 40)}},
     [INS_CONING_BLOCK4_FIT] = {4, 1, {R(736, 945), R(334, 945), R(526, 945), R(654, 945), R(334, 945), R(736, 945)}},
     [INS_CONING_BLOCK4_OPT] = {4, 1, {R(214, 105), R(92, 105), R(54, 105)}},
+    [INS_CONING_HIST2_MU03] = SHAPED(0.0169571190),
+    [INS_CONING_HIST2_MU06] = SHAPED(0.0178664520),
+    [INS_CONING_HIST2_MU10] = SHAPED(0.0202721873),
 };
 
 int ins_coning_samples(int form)

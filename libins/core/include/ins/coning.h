@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-/// In this order: history forms up to INS_CONING_HIST3_OPT, then block forms. Where FIT and OPT are the same there is one name.
+/// Where FIT and OPT are the same there is one name. MU: coefficients shaped for a band of vibration frequencies.
 enum
 {
     INS_CONING_ONE = 0, ///< Phi = theta: no correction (block of 1, or no history)
@@ -31,6 +31,9 @@ enum
     INS_CONING_BLOCK3_OPT,
     INS_CONING_BLOCK4_FIT,
     INS_CONING_BLOCK4_OPT,
+    INS_CONING_HIST2_MU03, ///< history of 2, least peak drift for vibration of up to 0.3 rad of phase an increment: 0.048 / T
+    INS_CONING_HIST2_MU06, ///< up to 0.6 rad
+    INS_CONING_HIST2_MU10, ///< up to 1 rad
     INS_CONING_FORM_COUNT
 };
 

@@ -54,7 +54,7 @@ INS_API int ins_fiter_samples(int form);
 /// \param[in] theta_b  [ins_fiter_samples(form) * 3] increments, or rates times T, oldest first [rad]; |component| <= pi.
 /// \param[out] dq  [4] rotation over the form's interval.
 /// \return INS_OK; INS_E_RANGE if there is no such form, for NaN, or if the series does not end within INS_FITER_DEGREE (increments of
-/// up to 0.5 rad always do, of a block up to 0.1), dq unchanged.
+/// up to 0.5 rad always do, of a block up to 0.05), dq unchanged.
 INS_API ins_status_t ins_fiter_turn(int form, const ins_real* theta_b, ins_real dq[4]);
 
 /// \param[in] period_s  T > 0 of a RATE form [s]; not read for increments.
