@@ -31,4 +31,6 @@ for top in (mpf("0.3"), mpf("0.6"), mpf(1)):
             low = a
     k2 = (low + high) / 2
     gain = peak(TAYLOR, top) / peak(k2, top)
-    print(f"mu <= {nstr(top, 2)}: K2 {nstr(k2, 9)}, peak {nstr(peak(k2, top), 4)}, {nstr(gain, 3)} times below HIST2_OPT")
+    print(
+        f"mu <= {nstr(top, 2)}: K2 {nstr(k2, 9)}, peak {nstr(peak(k2, top), 4)}, {nstr(gain, 3)} times below HIST2_OPT"
+    )

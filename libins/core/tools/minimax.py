@@ -34,7 +34,7 @@ def remez(f, degree):
             b[i] = f(x[i])
         solution = lu_solve(a, b)
         c = list(solution)[: degree + 1]
-        error = [polyval(c[::-1], u) - v for u, v in zip(grid, values)]
+        error = [polyval(c[::-1], u) - v for u, v in zip(grid, values, strict=True)]
         peaks = []
         for k, e in enumerate(error):
             if peaks and (e > 0) == (error[peaks[-1]] > 0):
