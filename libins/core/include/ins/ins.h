@@ -4,6 +4,7 @@
 #ifndef INS_INS_H_INCLUDED
 #define INS_INS_H_INCLUDED
 #include "ins/attitude.h"
+#include "ins/batch.h"
 #include "ins/config.h"
 #include "ins/coning.h"
 #include "ins/dead_reckoning.h"
@@ -16,6 +17,7 @@
 #include "ins/handshake.h"
 #include "ins/ins_math.h"
 #include "ins/kalman.h"
+#include "ins/link.h"
 #include "ins/markov.h"
 #include "ins/nmea.h"
 #include "ins/pva.h"
