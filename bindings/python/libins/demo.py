@@ -72,7 +72,7 @@ class Child:
 def view(t: float, row: Array | None, counts: dict[str, int]) -> Table:
     """What is on the screen while it runs."""
     table = Table(title=f"libins: firmware -> board -> link -> navigator -> DDS   t = {t:5.1f} s", title_justify="left")
-    for heading in ("angle", "truth [deg]", "estimate [deg]", "error [mrad]"):
+    for heading in ("angle", "truth, deg", "estimate, deg", "error, mrad"):
         table.add_column(heading, justify="left" if heading == "angle" else "right", min_width=14)
     for axis in AXES:
         cells = ("-", "-", "-")
@@ -118,7 +118,7 @@ class Screen:
         else:
             error = "" if row is None else " ".join(f"{a} {row[COLUMNS[f'error_{a}_rad']] * 1e3:+.2f}" for a in AXES)
             counted = ", ".join(f"{name} {count}" for name, count in counts.items())
-            self.console.print(f"t = {t:5.1f} s   error [mrad] {error}   {counted}", highlight=False)
+            self.console.print(f"t = {t:5.1f} s   error [mrad] {error}   {counted}", highlight=False, markup=False)
 
 
 def wrapped(angle: float) -> float:

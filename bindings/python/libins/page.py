@@ -28,7 +28,7 @@ def attitude_plot(states: Array) -> str:
             angles.plot(t, thinned[:, COLUMNS[f"{axis}_rad"]], color=colour, linewidth=0.9, label=f"{axis}, estimate")
             errors.plot(t, thinned[:, COLUMNS[f"error_{axis}_rad"]] * 1e3, color=colour, linewidth=0.9, label=axis)
         angles.set_ylabel("angle [rad]")
-        angles.legend(ncols=3, loc="upper right", frameon=False)
+        figure.legend(*angles.get_legend_handles_labels(), ncols=6, loc="outside upper center", frameon=False)
         errors.set_ylabel("estimate - truth [mrad]")
         errors.set_xlabel("time [s]")
         for axes in (angles, errors):
