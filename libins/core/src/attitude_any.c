@@ -6,11 +6,16 @@
 
 #define STEP_MAX INS_C(3.14159265358979324) ///< largest |component| of an increment [rad]
 
-/// The form to use while fewer increments are held than `form` wants (FIT and OPT alternate in the enumeration).
-static int start_up_form(int form, int held)
+const ins_coning_row_t* ins_attitude_row(const ins_attitude_t* self)
 {
+    // At start-up: ONE, HIST1, then the shorter form of the same kind (up to HIST3_OPT, FIT and OPT alternate in the enumeration).
     static const int first[] = {INS_CONING_ONE, INS_CONING_HIST1};
-    return held < 2 ? first[held] : form - 2;
+    const ins_coning_row_t* row = &ins_coning_rows[self->form];
+    if (self->count >= row->samples - 1)
+    {
+        return row;
+    }
+    return &ins_coning_rows[self->count < 2 ? first[self->count] : self->form - 2];
 }
 
 ins_status_t ins_attitude_step_any(ins_attitude_t* self, const ins_real dtheta_b[3])
@@ -22,13 +27,9 @@ ins_status_t ins_attitude_step_any(ins_attitude_t* self, const ins_real dtheta_b
             return INS_E_RANGE;
         }
     }
-    const ins_coning_row_t* row = &ins_coning_rows[self->form];
-    const int starting = self->count < row->samples - 1;
-    if (starting)
-    {
-        row = &ins_coning_rows[start_up_form(self->form, self->count)];
-        self->count++;
-    }
+    const ins_coning_row_t* row = ins_attitude_row(self);
+    const int starting = row != &ins_coning_rows[self->form];
+    self->count = (uint_least8_t)(self->count + starting);
     ins_real phi[3];
     rotation_vector(self, row, dtheta_b, phi);
     const ins_real u = ins_vec_dot(phi, phi);

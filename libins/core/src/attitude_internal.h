@@ -33,6 +33,9 @@ static inline void turn(ins_attitude_t* self, ins_real c, ins_real s, const ins_
     ins_vec_copy(theta, self->prev[0]);
 }
 
+/// The coefficients of the next step: the form's, or at start-up those of a form as long as the history.
+const ins_coning_row_t* ins_attitude_row(const ins_attitude_t* self);
+
 /// Any form, at start-up too, any size of increment; refuses what is out of range.
 ins_status_t ins_attitude_step_any(ins_attitude_t* self, const ins_real dtheta_b[3]);
 

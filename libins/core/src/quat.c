@@ -35,14 +35,7 @@ void ins_quat_conj(const ins_real q[4], ins_real out[4])
 
 void ins_quat_rotate(const ins_real q_nb[4], const ins_real v_b[3], ins_real v_n[3])
 {
-    // v + 2 w (r x v) + 2 r x (r x v), r = vector part
-    ins_real t[3];
-    ins_real r_t[3];
-    ins_vec_cross(q_nb + 1, v_b, t);
-    ins_vec_cross(q_nb + 1, t, r_t);
-    ins_vec_copy(v_b, v_n);
-    ins_vec_add_scaled(v_n, 2 * q_nb[0], t);
-    ins_vec_add_scaled(v_n, 2, r_t);
+    quat_rotate(q_nb, v_b, v_n);
 }
 
 ins_status_t ins_quat_normalise(ins_real q[4])

@@ -1,9 +1,10 @@
 /// \file   quat_internal.h
-/// \brief  The quaternion product in place of a call, for the attitude step. Scalar first.
+/// \brief  Quaternion product and rotation in place of calls, for the attitude and strapdown steps. Scalar first.
 /// SPDX-License-Identifier: MIT
 #ifndef INS_QUAT_INTERNAL_H_INCLUDED
 #define INS_QUAT_INTERNAL_H_INCLUDED
 #include "ins/config.h"
+#include "ins/vec.h"
 
 static inline void quat_mul(const ins_real p[4], const ins_real q[4], ins_real out[4])
 {
@@ -15,6 +16,18 @@ static inline void quat_mul(const ins_real p[4], const ins_real q[4], ins_real o
     out[1] = x;
     out[2] = y;
     out[3] = z;
+}
+
+/// q v q* = v + 2 w (r x v) + 2 r x (r x v), r = vector part. out may be v.
+static inline void quat_rotate(const ins_real q[4], const ins_real v[3], ins_real out[3])
+{
+    ins_real t[3];
+    ins_real r_t[3];
+    ins_vec_cross(q + 1, v, t);
+    ins_vec_cross(q + 1, t, r_t);
+    ins_vec_copy(v, out);
+    ins_vec_add_scaled(out, 2 * q[0], t);
+    ins_vec_add_scaled(out, 2, r_t);
 }
 
 static inline ins_real quat_norm2(const ins_real q[4])

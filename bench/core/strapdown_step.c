@@ -1,0 +1,40 @@
+/// \file   strapdown_step.c
+/// \brief  A load for callgrind: N full strapdown steps in NED, two previous increments. As attitude_step.c.
+/// SPDX-License-Identifier: MIT
+#include "ins/ins.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+#define SAMPLES 16
+#define PERIOD  INS_C(0.01)
+
+int main(int argc, char** argv)
+{
+    const unsigned long steps = argc > 1 ? strtoul(argv[1], NULL, 10) : 1000;
+    const ins_real level[4] = {1, 0, 0, 0};
+    const ins_real velocity[3] = {100, 50, -1};
+    const ins_position_t start = {{INS_C(0.4), 2, 100}, {0, 0, 0}};
+    ins_increment_t increment[SAMPLES];
+    for (int i = 0; i < SAMPLES; i++)
+    {
+        for (int axis = 0; axis < 3; axis++)
+        {
+            increment[i].theta_b[axis] = (ins_real)(i % (5 + axis) - 2) * INS_C(0.01);
+            increment[i].v_b[axis] = (ins_real)(i % (7 - axis) - 3) * INS_C(0.02);
+        }
+    }
+    ins_strapdown_t strapdown;
+    if (ins_strapdown_init(&strapdown, INS_CONING_HIST2_OPT, PERIOD, level, velocity, &start) != INS_OK)
+    {
+        return 1;
+    }
+    for (unsigned long k = 0; k < steps; k++)
+    {
+        if (ins_strapdown_step(&strapdown, &increment[k % SAMPLES]) < 0)
+        {
+            return 1;
+        }
+    }
+    printf("%.9g %.9g\n", (double)strapdown.sculling.q_nb[0], (double)strapdown.v_n[0]);
+    return 0;
+}
