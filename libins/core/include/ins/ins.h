@@ -25,6 +25,7 @@
 #include "ins/quat.h"
 #include "ins/rates.h"
 #include "ins/reuse.h"
+#include "ins/selftest.h"
 #include "ins/sculling.h"
 #include "ins/strapdown.h"
 #include "ins/thesis.h"
