@@ -295,6 +295,25 @@ TEST(gimu, random_octets)
                 g[0].t1, g[0].t2, g[0].skipped);
 }
 
+TEST(gimu, the_check_of_twelve_bits_is_exact)
+{
+    for (unsigned place = 2; place < INS_GIMU_T1_LEN; place += 2)
+    {
+        for (const unsigned high : {0x0Fu, 0x10u})
+        {
+            ins_gimu_t g;
+            ins_gimu_init(&g, 1);
+            Octets p = t1(1);
+            p[place] = static_cast<ins_octet_t>(high);
+            for (const ins_octet_t o : p)
+            {
+                EXPECT_EQ(ins_gimu_rx(&g, o), INS_GIMU_NOTHING);
+            }
+            EXPECT_EQ(ins_gimu_flush(&g), high == 0x0F ? INS_GIMU_T1 : INS_GIMU_NOTHING) << place;
+        }
+    }
+}
+
 TEST(gimu, a_short_rest_goes_on_waiting)
 {
     ins_gimu_t g;

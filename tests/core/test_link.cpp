@@ -368,6 +368,15 @@ TEST(link, agreement_and_fall_back)
     }
 }
 
+TEST(link, an_old_host_costs_one_time_out)
+{
+    Pair link(true, false);
+    link.transfer(0);
+    EXPECT_EQ(link.board.hs.resent, 0) << "a board that was never answered 44 does not ask again";
+    EXPECT_EQ(link.board.fallbacks, 1);
+    EXPECT_EQ(link.host.hs.stray, 1u);
+}
+
 TEST(link, the_host_is_replaced_by_one_that_knows_and_back)
 {
     Pair link(true, false, true);

@@ -72,7 +72,7 @@ ins_status_t ins_dr_ekf_init(ins_dr_ekf_t* self, const ins_dr_ekf_config_t* cfg,
             return INS_E_RANGE;
         }
     }
-    static const ins_dr_ekf_t zero = {0};
+    static const ins_dr_ekf_t zero; // all 0
     *self = zero;
     self->cfg = *cfg;
     place(self, 0);

@@ -117,8 +117,10 @@ ins_status_t ins_switch_init(ins_switch_t* self, const ins_switch_config_t* cfg)
     {
         return INS_E_RANGE;
     }
-    const ins_switch_t start = {*cfg, INS_SWITCH_DR, 0, 0};
-    *self = start;
+    self->cfg = *cfg;
+    self->mode = INS_SWITCH_DR;
+    self->good = 0;
+    self->run = 0;
     return INS_OK;
 }
 

@@ -22,15 +22,25 @@ ins_status_t ins_gps_axis_init(ins_gps_axis_t* self, const ins_gps_axis_config_t
     ins_singer(cfg->dt, cfg->tau_acceleration, &s);
     const ins_real decay = ins_elementary_decay(cfg->dt / cfg->tau_fix, 0);
     (void)ins_elementary_decay(2 * cfg->dt / cfg->tau_fix, &rest);
-    const ins_gps_axis_t start = {*cfg,
-                                  {0},
-                                  {var[0], 0, 0, 0, 0, var[1], 0, 0, 0, 0, var[2], 0, 0, 0, 0, var[3]},
-                                  {1, s.p12, s.p13, 0, 0, 1, s.p23, 0, 0, 0, s.p33, 0, 0, 0, 0, decay},
-                                  {s.q11, s.q12, s.q13, 0, s.q12, s.q22, s.q23, 0, s.q13, s.q23, s.q33, 0, 0, 0, 0,
-                                   cfg->sigma_fix * cfg->sigma_fix * rest},
-                                  {s.u[0], s.u[1], s.u[2]},
-                                  {0}};
-    *self = start;
+    const ins_real Phi[16] = {1, s.p12, s.p13, 0, 0, 1, s.p23, 0, 0, 0, s.p33, 0, 0, 0, 0, decay};
+    const ins_real Q[16] = {s.q11, s.q12, s.q13, 0, s.q12, s.q22, s.q23, 0,
+                            s.q13, s.q23, s.q33, 0, 0,     0,     0,     cfg->sigma_fix * cfg->sigma_fix * rest};
+    self->cfg = *cfg;
+    for (unsigned i = 0; i < 16; i++)
+    {
+        self->Phi[i] = Phi[i];
+        self->Q[i] = Q[i];
+        self->P[i] = i % 5 == 0 ? var[i / 5] : 0;
+    }
+    for (unsigned i = 0; i < 4; i++)
+    {
+        self->x[i] = 0;
+        self->K[i] = 0;
+    }
+    for (unsigned i = 0; i < 3; i++)
+    {
+        self->u[i] = s.u[i];
+    }
     return INS_OK;
 }
 

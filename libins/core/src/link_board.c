@@ -27,8 +27,9 @@ uint16_t ins_link_crc(uint16_t crc, ins_octet_t octet)
 
 ins_status_t ins_link_board_init(ins_link_board_t* self, const ins_hs_config_t* cfg)
 {
-    static const ins_link_board_t zero = {0};
-    ins_link_board_t start = zero;
+    static const ins_link_board_t zero; // all 0
+    ins_link_board_t start;
+    start = zero;
     const ins_status_t status = cfg->block_len <= INS_LINK_BLOCK_MAX ? ins_hs_board_init(&start.hs, cfg) : INS_E_RANGE;
     if (status == INS_OK)
     {

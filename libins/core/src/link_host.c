@@ -13,8 +13,9 @@ enum
 
 ins_status_t ins_link_host_init(ins_link_host_t* self, const ins_hs_config_t* cfg)
 {
-    static const ins_link_host_t zero = {0};
-    ins_link_host_t start = zero;
+    static const ins_link_host_t zero; // all 0
+    ins_link_host_t start;
+    start = zero;
     const ins_status_t status = cfg->block_len <= INS_LINK_BLOCK_MAX ? ins_hs_host_init(&start.hs, cfg) : INS_E_RANGE;
     if (status == INS_OK)
     {

@@ -272,7 +272,7 @@ static void read_fields(int type, cursor_t* c, ins_nmea_fix_t* fix)
 /// The sentence whose checksum agreed.
 static int sentence(ins_nmea_t* self)
 {
-    static const ins_nmea_fix_t nothing = {0};
+    static const ins_nmea_fix_t nothing; // all 0
     static const ins_octet_t known[3][3] = {{'G', 'G', 'A'}, {'R', 'M', 'C'}, {'V', 'T', 'G'}};
     cursor_t c = {self->body, 0, 0, self->count, 1};
     find_end(&c);
@@ -281,7 +281,8 @@ static int sentence(ins_nmea_t* self)
         const ins_octet_t* const name = known[type - INS_NMEA_GGA];
         if (c.end == 5 && c.text[2] == name[0] && c.text[3] == name[1] && c.text[4] == name[2])
         {
-            ins_nmea_fix_t fix = nothing;
+            ins_nmea_fix_t fix;
+            fix = nothing;
             next(&c);
             read_fields(type, &c, &fix);
             if (!c.fine)

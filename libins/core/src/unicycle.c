@@ -27,7 +27,7 @@ ins_status_t ins_unicycle_init(ins_unicycle_t* self, const ins_unicycle_config_t
             return INS_E_RANGE;
         }
     }
-    static const ins_unicycle_t zero = {0};
+    static const ins_unicycle_t zero; // all 0
     *self = zero;
     self->cfg = *cfg;
     for (unsigned i = 0; i < N; i++)
