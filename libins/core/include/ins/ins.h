@@ -3,6 +3,7 @@
 /// SPDX-License-Identifier: MIT
 #ifndef INS_INS_H_INCLUDED
 #define INS_INS_H_INCLUDED
+#include "ins/align.h"
 #include "ins/attitude.h"
 #include "ins/batch.h"
 #include "ins/config.h"
@@ -27,6 +28,7 @@
 #include "ins/reuse.h"
 #include "ins/selftest.h"
 #include "ins/sculling.h"
+#include "ins/sixacc.h"
 #include "ins/strapdown.h"
 #include "ins/thesis.h"
 #include "ins/tm.h"
