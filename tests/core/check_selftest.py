@@ -1,6 +1,8 @@
-"""The self-test finds what it is for: builds the core with one fault at a time and asks ins_selftest().  SPDX-License-Identifier: MIT
+"""The self-test finds what it is for: builds the core with one fault at a time and asks ins_selftest().
 
-    check_selftest.py CC FOLDER
+SPDX-License-Identifier: MIT
+
+check_selftest.py CC FOLDER
 """
 
 import subprocess
@@ -11,7 +13,12 @@ CORE = Path(__file__).resolve().parents[2] / "libins" / "core"
 CONING, STEP, FITER, RATES, FIXED = 0x02, 0x04, 0x08, 0x10, 0x20
 # (file, what stands there, the fault, bits that must be set)
 FAULTS = [
-    ("coning_internal.h", "ins_vec_add_scaled(phi, 1, cross);\n    if", "if", CONING | STEP),  # the term is silently zero
+    (
+        "coning_internal.h",
+        "ins_vec_add_scaled(phi, 1, cross);\n    if",
+        "if",
+        CONING | STEP,
+    ),  # the term is silently zero
     ("coning_internal.h", "ins_vec_cross(w, t0, cross)", "ins_vec_cross(t0, w, cross)", CONING | STEP),
     ("coning_internal.h", "R(7, 60), R(-1, 60)", "R(7, 60), R(1, 60)", CONING | STEP),
     ("coning.c", "R(473, 1890)", "R(437, 1890)", CONING),
@@ -38,7 +45,7 @@ def selftest(compiler: str, folder: Path, fault: tuple[str, str, str] | None) ->
     main = folder / "main.c"
     main.write_text('#include "ins/selftest.h"\nint main(void) { return (int)ins_selftest(); }\n', encoding="utf-8")
     program = folder / "selftest"
-    needed = "selftest attitude attitude_any coning fiter q31 quat rates rotvec version".split()
+    needed = ["selftest", "attitude", "attitude_any", "coning", "fiter", "q31", "quat", "rates", "rotvec", "version"]
     files = [str(source / f"{name}.c") for name in needed]
     command = [compiler, "-std=c11", "-O1", "-ffp-contract=off", f"-I{CORE / 'include'}", str(main), *files, "-lm"]
     subprocess.run([*command, "-o", str(program)], check=True)

@@ -310,6 +310,7 @@ uint8_t mcs51_sfr(mcs51_t* self, uint8_t address)
     const uint64_t limit = earlier(mcs51_cycle(self), self->until);
     mcs51_sync(self, limit);
     mcs51_timers_sync(self, limit);
+    // cppcheck-suppress arrayIndexOutOfBoundsCond  // 256 is no uint8_t
     return self->mem[address];
 }
 
