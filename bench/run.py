@@ -48,6 +48,7 @@ def measure() -> list[Row]:
     rows = [
         row("attitude.hist2.f64.x86.instructions", per_step("core/bench_attitude_f64", 1000, 11000), "instructions"),
         row("attitude.hist2.f32.x86.instructions", per_step("core/bench_attitude_f32", 1000, 11000), "instructions"),
+        row("strapdown.step.f64.x86.instructions", per_step("core/bench_strapdown_f64", 1000, 11000), "instructions"),
         row("dds.publish.instructions", per_step("dds/bench_dds_publish", 100, 1100), "instructions"),
     ]
     with tempfile.TemporaryDirectory() as folder:
