@@ -31,9 +31,10 @@ def text(summary: dict[str, Any]) -> str:
         f"cpu       {summary['cpu']['instructions']} instructions, {summary['cpu']['cycles']} machine cycles",
     ]
     if (link := summary["link"]) is not None:
+        corrupt = link["corrupt_accepted"]
         lines.append(
-            f"link      {link['sent']} sampled, {link['ok']} accepted, {link['retried']} retried, {link['lost']} lost, "
-            f"{link['corrupt_accepted']} corrupt accepted"
+            f"link      {link['sent']} sampled, {link['ok']} accepted, {link['retried']} retried, {link['lost']} lost"
+            + (f", {corrupt} corrupt accepted" if corrupt is not None else "")
         )
     if (attitude := summary["attitude"]) is not None:
         for kind in ("rms", "max"):
