@@ -8,11 +8,11 @@
 
 enum
 {
-    IDLE,
-    REQUEST,    ///< AA is to be transmitted
-    WAIT_READY, ///< AA is out, BB is due
-    FRAME,      ///< block and sum are being transmitted
-    WAIT_ACK    ///< the sum is out, 00 or FF is due
+    BOARD_IDLE,
+    BOARD_REQUEST,    ///< AA is to be transmitted
+    BOARD_WAIT_READY, ///< AA is out, BB is due
+    BOARD_FRAME,      ///< block and sum are being transmitted
+    BOARD_WAIT_ACK    ///< the sum is out, 00 or FF is due
 };
 
 ins_status_t ins_hs_board_init(INS_HS_MEM ins_hs_board_t* self, const ins_hs_config_t* cfg)
@@ -23,7 +23,7 @@ ins_status_t ins_hs_board_init(INS_HS_MEM ins_hs_board_t* self, const ins_hs_con
         return INS_E_RANGE;
     }
     self->cfg = *cfg;
-    self->state = IDLE;
+    self->state = BOARD_IDLE;
     self->sent = 0;
     self->resent = 0;
     self->given_up = 0;
@@ -36,7 +36,7 @@ ins_status_t ins_hs_board_offer(INS_HS_MEM ins_hs_board_t* self, const INS_HS_ME
     ins_octet_t octet;
     uint_least8_t i;
     (void)now;
-    if (self->state != IDLE)
+    if (self->state != BOARD_IDLE)
     {
         return INS_E_STATE;
     }
@@ -56,24 +56,24 @@ ins_status_t ins_hs_board_offer(INS_HS_MEM ins_hs_board_t* self, const INS_HS_ME
         self->sum = (self->sum + octet) & 0xFFu;
     }
     self->tries = 0;
-    self->state = REQUEST;
+    self->state = BOARD_REQUEST;
     return INS_OK;
 }
 
 uint_least8_t ins_hs_board_busy(const INS_HS_MEM ins_hs_board_t* self)
 {
-    return self->state != IDLE;
+    return self->state != BOARD_IDLE;
 }
 
 int16_t ins_hs_board_tx(INS_HS_MEM ins_hs_board_t* self, uint16_t now)
 {
     ins_octet_t octet;
-    if (self->state == REQUEST)
+    if (self->state == BOARD_REQUEST)
     {
         octet = INS_HS_REQUEST;
-        self->state = WAIT_READY;
+        self->state = BOARD_WAIT_READY;
     }
-    else if (self->state != FRAME)
+    else if (self->state != BOARD_FRAME)
     {
         return -1;
     }
@@ -85,19 +85,19 @@ int16_t ins_hs_board_tx(INS_HS_MEM ins_hs_board_t* self, uint16_t now)
     else
     {
         octet = self->sum;
-        self->state = WAIT_ACK;
+        self->state = BOARD_WAIT_ACK;
     }
     self->since = now;
     return octet;
 }
 
 /// Another try from `state` on, or the block is dropped.
-static void retry(INS_HS_MEM ins_hs_board_t* self, uint_least8_t state)
+static void board_retry(INS_HS_MEM ins_hs_board_t* self, uint_least8_t state)
 {
     if (self->tries == self->cfg.retries)
     {
         self->given_up++;
-        self->state = IDLE;
+        self->state = BOARD_IDLE;
         return;
     }
     self->tries++;
@@ -109,28 +109,28 @@ static void retry(INS_HS_MEM ins_hs_board_t* self, uint_least8_t state)
 void ins_hs_board_rx(INS_HS_MEM ins_hs_board_t* self, ins_octet_t octet, uint16_t now)
 {
     (void)now;
-    if (self->state == WAIT_READY && octet == INS_HS_READY)
+    if (self->state == BOARD_WAIT_READY && octet == INS_HS_READY)
     {
         self->next = 0;
-        self->state = FRAME;
+        self->state = BOARD_FRAME;
     }
-    else if (self->state == WAIT_ACK && octet == INS_HS_ACCEPT)
+    else if (self->state == BOARD_WAIT_ACK && octet == INS_HS_ACCEPT)
     {
         self->sent++;
-        self->state = IDLE;
+        self->state = BOARD_IDLE;
     }
-    else if (self->state == WAIT_ACK && octet == INS_HS_RESEND)
+    else if (self->state == BOARD_WAIT_ACK && octet == INS_HS_RESEND)
     {
-        retry(self, FRAME);
+        board_retry(self, BOARD_FRAME);
     }
 }
 
 void ins_hs_board_tick(INS_HS_MEM ins_hs_board_t* self, uint16_t now)
 {
-    if ((self->state == WAIT_READY || self->state == WAIT_ACK) &&
+    if ((self->state == BOARD_WAIT_READY || self->state == BOARD_WAIT_ACK) &&
         (uint16_t)(now - self->since) >= self->cfg.reply_timeout)
     {
-        retry(self, REQUEST);
+        board_retry(self, BOARD_REQUEST);
     }
 }
 

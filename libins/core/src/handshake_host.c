@@ -11,8 +11,8 @@
 
 enum
 {
-    IDLE,
-    BLOCK ///< BB or FF is out; block and sum are due
+    HOST_IDLE,
+    HOST_BLOCK ///< BB or FF is out; block and sum are due
 };
 
 ins_status_t ins_hs_host_init(ins_hs_host_t* self, const ins_hs_config_t* cfg)
@@ -24,7 +24,7 @@ ins_status_t ins_hs_host_init(ins_hs_host_t* self, const ins_hs_config_t* cfg)
         return INS_E_RANGE;
     }
     self->cfg = *cfg;
-    self->state = IDLE;
+    self->state = HOST_IDLE;
     self->tries = 0;
     self->count = 0;
     self->sum = 0;
@@ -42,7 +42,7 @@ ins_status_t ins_hs_host_init(ins_hs_host_t* self, const ins_hs_config_t* cfg)
 
 static void expect_block(ins_hs_host_t* self)
 {
-    self->state = BLOCK;
+    self->state = HOST_BLOCK;
     self->count = 0;
     self->sum = 0;
 }
@@ -52,7 +52,7 @@ static int take_block(ins_hs_host_t* self)
 {
     uint_least8_t seq;
     uint_least8_t step;
-    self->state = IDLE;
+    self->state = HOST_IDLE;
     if (self->cfg.seq)
     {
         seq = (uint_least8_t)((self->block[0] & 0xF0u) | (self->block[2] >> 4));
@@ -78,14 +78,14 @@ int ins_hs_host_rx(ins_hs_host_t* self, ins_octet_t octet, uint16_t now, int16_t
     octet &= 0xFFu;
     *reply = -1;
     self->since = now;
-    if (self->state == IDLE || (self->count == 0 && octet == INS_HS_REQUEST && silence > self->cfg.octet_timeout))
+    if (self->state == HOST_IDLE || (self->count == 0 && octet == INS_HS_REQUEST && silence > self->cfg.octet_timeout))
     {
         if (octet != INS_HS_REQUEST)
         {
             self->stray++;
             return INS_HS_NOTHING;
         }
-        if (self->state == BLOCK) // BB or FF was lost, and the board asks again before a tick said so
+        if (self->state == HOST_BLOCK) // BB or FF was lost, and the board asks again before a tick said so
         {
             self->timeouts++;
         }
@@ -110,7 +110,7 @@ int ins_hs_host_rx(ins_hs_host_t* self, ins_octet_t octet, uint16_t now, int16_t
     *reply = INS_HS_RESEND;
     if (self->tries == self->cfg.retries)
     {
-        self->state = IDLE;
+        self->state = HOST_IDLE;
     }
     else
     {
@@ -122,10 +122,10 @@ int ins_hs_host_rx(ins_hs_host_t* self, ins_octet_t octet, uint16_t now, int16_t
 
 void ins_hs_host_tick(ins_hs_host_t* self, uint16_t now)
 {
-    if (self->state == BLOCK && (uint16_t)(now - self->since) > self->cfg.octet_timeout)
+    if (self->state == HOST_BLOCK && (uint16_t)(now - self->since) > self->cfg.octet_timeout)
     {
         self->timeouts++;
-        self->state = IDLE;
+        self->state = HOST_IDLE;
     }
 }
 

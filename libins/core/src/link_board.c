@@ -8,11 +8,11 @@
 
 enum
 {
-    PAPER,      ///< idle, or the paper's machine is at work
-    REQUEST,    ///< 55 is to be transmitted
-    WAIT_READY, ///< 55 is out, 44 is due
-    FRAME,
-    WAIT_ACK
+    LINK_PAPER,      ///< idle, or the paper's machine is at work
+    LINK_REQUEST,    ///< 55 is to be transmitted
+    LINK_WAIT_READY, ///< 55 is out, 44 is due
+    LINK_FRAME,
+    LINK_WAIT_ACK
 };
 
 uint16_t ins_link_crc(uint16_t crc, ins_octet_t octet)
@@ -40,7 +40,7 @@ ins_status_t ins_link_board_init(ins_link_board_t* self, const ins_hs_config_t* 
 
 uint_least8_t ins_link_board_busy(const ins_link_board_t* self)
 {
-    return self->state != PAPER || ins_hs_board_busy(&self->hs);
+    return self->state != LINK_PAPER || ins_hs_board_busy(&self->hs);
 }
 
 ins_status_t ins_link_board_offer(ins_link_board_t* self, const ins_octet_t* block, uint_least8_t seq, uint16_t now)
@@ -62,7 +62,7 @@ ins_status_t ins_link_board_offer(ins_link_board_t* self, const ins_octet_t* blo
         self->crc = ins_link_crc(self->crc, block[i]);
     }
     self->hs.tries = 0;
-    self->state = REQUEST;
+    self->state = LINK_REQUEST;
     return INS_OK;
 }
 
@@ -71,16 +71,16 @@ int16_t ins_link_board_tx(ins_link_board_t* self, uint16_t now)
     const uint_least8_t length = self->hs.cfg.block_len;
     const uint_least8_t next = self->hs.next;
     int16_t octet;
-    if (self->state == PAPER)
+    if (self->state == LINK_PAPER)
     {
         return ins_hs_board_tx(&self->hs, now);
     }
-    if (self->state == REQUEST)
+    if (self->state == LINK_REQUEST)
     {
         octet = INS_LINK_REQUEST;
-        self->state = WAIT_READY;
+        self->state = LINK_WAIT_READY;
     }
-    else if (self->state != FRAME)
+    else if (self->state != LINK_FRAME)
     {
         return -1;
     }
@@ -91,16 +91,16 @@ int16_t ins_link_board_tx(ins_link_board_t* self, uint16_t now)
                           : next == length + 1 ? (self->crc >> 8) & 0xFFu
                                                : self->crc & 0xFFu);
         self->hs.next++;
-        self->state = next == length + 2 ? WAIT_ACK : FRAME;
+        self->state = next == length + 2 ? LINK_WAIT_ACK : LINK_FRAME;
     }
     self->hs.since = now;
     return octet;
 }
 
 /// Another try from `state` on, or else the block is dropped, or goes out in the paper's form if the host was silent.
-static void retry(ins_link_board_t* self, uint_least8_t state, uint16_t now)
+static void link_retry(ins_link_board_t* self, uint_least8_t state, uint16_t now)
 {
-    const int silent = self->state == WAIT_READY;
+    const int silent = self->state == LINK_WAIT_READY;
     if (self->hs.tries < self->hs.cfg.retries && !(silent && !self->known))
     {
         self->hs.tries++;
@@ -109,7 +109,7 @@ static void retry(ins_link_board_t* self, uint_least8_t state, uint16_t now)
         self->state = state;
         return;
     }
-    self->state = PAPER;
+    self->state = LINK_PAPER;
     if (!silent)
     {
         self->hs.given_up++;
@@ -124,37 +124,37 @@ static void retry(ins_link_board_t* self, uint_least8_t state, uint16_t now)
 void ins_link_board_rx(ins_link_board_t* self, ins_octet_t octet, uint16_t now)
 {
     octet &= 0xFFu;
-    if (self->state == PAPER)
+    if (self->state == LINK_PAPER)
     {
         ins_hs_board_rx(&self->hs, octet, now);
     }
-    else if (self->state == WAIT_READY && octet == INS_LINK_READY)
+    else if (self->state == LINK_WAIT_READY && octet == INS_LINK_READY)
     {
         self->known = 1;
         self->hs.next = 0;
-        self->state = FRAME;
+        self->state = LINK_FRAME;
     }
-    else if (self->state == WAIT_ACK && octet == INS_HS_ACCEPT)
+    else if (self->state == LINK_WAIT_ACK && octet == INS_HS_ACCEPT)
     {
         self->hs.sent++;
         self->extended++;
-        self->state = PAPER;
+        self->state = LINK_PAPER;
     }
-    else if (self->state == WAIT_ACK && octet == INS_HS_RESEND)
+    else if (self->state == LINK_WAIT_ACK && octet == INS_HS_RESEND)
     {
-        retry(self, FRAME, now);
+        link_retry(self, LINK_FRAME, now);
     }
 }
 
 void ins_link_board_tick(ins_link_board_t* self, uint16_t now)
 {
-    if (self->state == PAPER)
+    if (self->state == LINK_PAPER)
     {
         ins_hs_board_tick(&self->hs, now);
     }
-    else if ((self->state == WAIT_READY || self->state == WAIT_ACK) &&
+    else if ((self->state == LINK_WAIT_READY || self->state == LINK_WAIT_ACK) &&
              (uint16_t)(now - self->hs.since) >= self->hs.cfg.reply_timeout)
     {
-        retry(self, REQUEST, now);
+        link_retry(self, LINK_REQUEST, now);
     }
 }

@@ -7,8 +7,8 @@
 
 enum
 {
-    PAPER, ///< idle, or the paper's machine is at work
-    FRAME  ///< 44 or FF is out, the frame is due
+    HOST_PAPER, ///< idle, or the paper's machine is at work
+    HOST_FRAME  ///< 44 or FF is out, the frame is due
 };
 
 ins_status_t ins_link_host_init(ins_link_host_t* self, const ins_hs_config_t* cfg)
@@ -26,7 +26,7 @@ ins_status_t ins_link_host_init(ins_link_host_t* self, const ins_hs_config_t* cf
 
 static void expect_frame(ins_link_host_t* self)
 {
-    self->state = FRAME;
+    self->state = HOST_FRAME;
     self->crc = INS_LINK_CRC_START;
     self->hs.count = 0;
 }
@@ -54,12 +54,12 @@ int ins_link_host_rx(ins_link_host_t* self, ins_octet_t octet, uint16_t now, int
     const uint16_t silence = (uint16_t)(now - hs->since);
     octet &= 0xFFu;
     *reply = -1;
-    if (self->state == FRAME && hs->count == 0 && silence > hs->cfg.octet_timeout)
+    if (self->state == HOST_FRAME && hs->count == 0 && silence > hs->cfg.octet_timeout)
     {
         hs->timeouts++; // 44 or FF was lost, and the board asks again before a tick said so
-        self->state = PAPER;
+        self->state = HOST_PAPER;
     }
-    if (self->state == PAPER)
+    if (self->state == HOST_PAPER)
     {
         if (hs->state != HS_IDLE || octet != INS_LINK_REQUEST)
         {
@@ -93,7 +93,7 @@ int ins_link_host_rx(ins_link_host_t* self, ins_octet_t octet, uint16_t now, int
     }
     if (self->crc == 0) // a CRC over itself
     {
-        self->state = PAPER;
+        self->state = HOST_PAPER;
         *reply = INS_HS_ACCEPT;
         return take_frame(self);
     }
@@ -101,7 +101,7 @@ int ins_link_host_rx(ins_link_host_t* self, ins_octet_t octet, uint16_t now, int
     *reply = INS_HS_RESEND;
     if (hs->tries == hs->cfg.retries)
     {
-        self->state = PAPER;
+        self->state = HOST_PAPER;
     }
     else
     {
@@ -113,13 +113,13 @@ int ins_link_host_rx(ins_link_host_t* self, ins_octet_t octet, uint16_t now, int
 
 void ins_link_host_tick(ins_link_host_t* self, uint16_t now)
 {
-    if (self->state == PAPER)
+    if (self->state == HOST_PAPER)
     {
         ins_hs_host_tick(&self->hs, now);
     }
     else if ((uint16_t)(now - self->hs.since) > self->hs.cfg.octet_timeout)
     {
         self->hs.timeouts++;
-        self->state = PAPER;
+        self->state = HOST_PAPER;
     }
 }

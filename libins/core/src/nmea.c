@@ -9,7 +9,7 @@
 
 enum
 {
-    IDLE,
+    OUTSIDE,
     BODY,
     SUM_1, ///< the first digit of the checksum is due
     SUM_2,
@@ -198,7 +198,7 @@ static void figure(cursor_t* c, ins_nmea_fix_t* fix, int32_t* value, unsigned bi
     next(c);
 }
 
-static void unit(cursor_t* c, ins_octet_t want)
+static void unit_letter(cursor_t* c, ins_octet_t want)
 {
     const ins_octet_t got = letter(c);
     c->fine &= got == 0 || got == want;
@@ -215,9 +215,9 @@ static void gga(cursor_t* c, ins_nmea_fix_t* fix)
     next(c);
     figure(c, fix, &fix->hdop_milli, INS_NMEA_HDOP);
     figure(c, fix, &fix->altitude_mm, INS_NMEA_ALTITUDE);
-    unit(c, 'M');
+    unit_letter(c, 'M');
     figure(c, fix, &fix->geoid_mm, INS_NMEA_GEOID);
-    unit(c, 'M');
+    unit_letter(c, 'M');
 }
 
 static void rmc(cursor_t* c, ins_nmea_fix_t* fix)
@@ -243,13 +243,13 @@ static void rmc(cursor_t* c, ins_nmea_fix_t* fix)
 static void vtg(cursor_t* c, ins_nmea_fix_t* fix)
 {
     figure(c, fix, &fix->course_mdeg, INS_NMEA_COURSE);
-    unit(c, 'T');
+    unit_letter(c, 'T');
     next(c); // magnetic course
-    unit(c, 'M');
+    unit_letter(c, 'M');
     figure(c, fix, &fix->speed_milliknot, INS_NMEA_SPEED);
-    unit(c, 'N');
+    unit_letter(c, 'N');
     next(c); // km/h
-    unit(c, 'K');
+    unit_letter(c, 'K');
     fix->valid = letter(c) != 'N' && (fix->has & INS_NMEA_SPEED) != 0;
 }
 
@@ -316,7 +316,7 @@ int ins_nmea_rx(ins_nmea_t* self, ins_octet_t octet)
     const uint_least8_t state = self->state;
     if (octet == '$')
     {
-        self->cut += state != IDLE;
+        self->cut += state != OUTSIDE;
         self->state = BODY;
         self->count = 0;
         self->sum = 0;
@@ -330,7 +330,7 @@ int ins_nmea_rx(ins_nmea_t* self, ins_octet_t octet)
         if (octet < ' ' || octet > '~' || self->count == INS_NMEA_BODY_MAX)
         {
             self->cut++;
-            self->state = IDLE;
+            self->state = OUTSIDE;
             return INS_NMEA_NOTHING;
         }
         self->body[self->count] = octet;
@@ -350,7 +350,7 @@ int ins_nmea_rx(ins_nmea_t* self, ins_octet_t octet)
     }
     else if (state == END)
     {
-        self->state = IDLE;
+        self->state = OUTSIDE;
         if (self->sent && (octet == '\r' || octet == '\n'))
         {
             return sentence(self);

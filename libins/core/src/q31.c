@@ -41,7 +41,7 @@ static void coning(const int32_t prev[2][3], const int32_t theta[3], int32_t out
     }
 }
 
-int q31_turn(const int32_t prev[2][3], const int32_t theta[3], int32_t d[4])
+int ins_q31_turn(const int32_t prev[2][3], const int32_t theta[3], int32_t d[4])
 {
     if (out_of_range(theta))
     {
@@ -79,7 +79,7 @@ static int64_t norm2_q60(const int32_t q[4])
     return q31_mac(q31_mac(q31_mac(q31_mac(0, q[0], q[0]), q[1], q[1]), q[2], q[2]), q[3], q[3]);
 }
 
-void q31_change(const int32_t q[4], const int32_t d[4], int64_t out[4])
+void ins_q31_change(const int32_t q[4], const int32_t d[4], int64_t out[4])
 {
     const int32_t w = d[0] + (int32_t)((ONE_Q60 - norm2_q60(q)) >> 28);
     const int32_t x = d[1];
@@ -91,7 +91,7 @@ void q31_change(const int32_t q[4], const int32_t d[4], int64_t out[4])
     out[3] = q31_mac(q31_mac(q31_mac(q31_mac(0, q[0], z), q[1], y), q[2], -x), q[3], w);
 }
 
-ins_status_t q31_remember(int32_t prev[2][3], uint_least8_t* count, const int32_t theta[3])
+ins_status_t ins_q31_remember(int32_t prev[2][3], uint_least8_t* count, const int32_t theta[3])
 {
     for (int i = 0; i < 3; i++)
     {
@@ -110,20 +110,20 @@ ins_status_t q31_remember(int32_t prev[2][3], uint_least8_t* count, const int32_
 ins_status_t ins_q31_step(ins_q31_t* self, const int32_t dtheta_b[3])
 {
     int32_t d[4];
-    if (!q31_turn((const int32_t(*)[3])self->prev, dtheta_b, d))
+    if (!ins_q31_turn((const int32_t(*)[3])self->prev, dtheta_b, d))
     {
         return INS_E_RANGE;
     }
     int64_t by[4];
-    q31_change(self->q_nb, d, by);
+    ins_q31_change(self->q_nb, d, by);
     for (int i = 0; i < 4; i++)
     {
         self->q_nb[i] += (int32_t)((by[i] + (INT64_C(1) << 32)) >> 33);
     }
-    return q31_remember(self->prev, &self->count, dtheta_b);
+    return ins_q31_remember(self->prev, &self->count, dtheta_b);
 }
 
-int q31_is_unit(const int32_t q[4])
+int ins_q31_is_unit(const int32_t q[4])
 {
     for (int i = 0; i < 4; i++)
     {
@@ -138,7 +138,7 @@ int q31_is_unit(const int32_t q[4])
 
 ins_status_t ins_q31_init(ins_q31_t* self, const int32_t q_nb[4])
 {
-    if (!q31_is_unit(q_nb))
+    if (!ins_q31_is_unit(q_nb))
     {
         return INS_E_RANGE;
     }

@@ -56,17 +56,18 @@ static inline int32_t q31_high(int64_t x)
 /// c is n / d in Qbits to `tight` bits, and fits an int32: a slip in a coefficient, or one too large, does not compile.
 #define Q31_OFF(c, n, d, bits) ((int64_t)(c) * (d) - (n) * (INT64_C(1) << (bits)))
 #define Q31_IS(c, n, d, bits, tight)                                                                                   \
-    _Static_assert((c) >= -INT64_C(2147483647) && (c) <= INT64_C(2147483647) &&                                        \
-                       Q31_OFF(c, n, d, bits) <= INT64_C(1) << ((bits) - (tight)) &&                                   \
-                       Q31_OFF(c, n, d, bits) >= -(INT64_C(1) << ((bits) - (tight))),                                  \
-                   #c)
+    typedef char c##_is[(c) >= -INT64_C(2147483647) && (c) <= INT64_C(2147483647) &&                                   \
+                                Q31_OFF(c, n, d, bits) <= INT64_C(1) << ((bits) - (tight)) &&                          \
+                                Q31_OFF(c, n, d, bits) >= -(INT64_C(1) << ((bits) - (tight)))                          \
+                            ? 1                                                                                        \
+                            : -1]
 
 /// d = {cos(|phi|/2) - 1, phi sin(|phi|/2) / |phi|} in Q33. \return 0 if |theta| or |phi| is above 0.5.
-int q31_turn(const int32_t prev[2][3], const int32_t theta[3], int32_t d[4]);
+int ins_q31_turn(const int32_t prev[2][3], const int32_t theta[3], int32_t d[4]);
 /// out = q (d + (1 - |q|^2) / 2) in Q63, q in Q30: what to add to q, the correction of its norm included.
-void q31_change(const int32_t q[4], const int32_t d[4], int64_t out[4]);
-ins_status_t q31_remember(int32_t prev[2][3], uint_least8_t* count, const int32_t theta[3]);
+void ins_q31_change(const int32_t q[4], const int32_t d[4], int64_t out[4]);
+ins_status_t ins_q31_remember(int32_t prev[2][3], uint_least8_t* count, const int32_t theta[3]);
 /// 1 if |q| is within 1e-3 of 1.
-int q31_is_unit(const int32_t q[4]);
+int ins_q31_is_unit(const int32_t q[4]);
 
 #endif // INS_Q31_INTERNAL_H_INCLUDED

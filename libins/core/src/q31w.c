@@ -6,7 +6,7 @@
 
 ins_status_t ins_q31w_init(ins_q31w_t* self, const int32_t q_nb[4])
 {
-    if (!q31_is_unit(q_nb))
+    if (!ins_q31_is_unit(q_nb))
     {
         return INS_E_RANGE;
     }
@@ -26,19 +26,19 @@ ins_status_t ins_q31w_init(ins_q31w_t* self, const int32_t q_nb[4])
 ins_status_t ins_q31w_step(ins_q31w_t* self, const int32_t dtheta_b[3])
 {
     int32_t d[4];
-    if (!q31_turn((const int32_t(*)[3])self->prev, dtheta_b, d))
+    if (!ins_q31_turn((const int32_t(*)[3])self->prev, dtheta_b, d))
     {
         return INS_E_RANGE;
     }
     int32_t q[4];
     int64_t by[4];
     ins_q31w_get(self, q);
-    q31_change(q, d, by);
+    ins_q31_change(q, d, by);
     for (int i = 0; i < 4; i++)
     {
         self->q_nb[i] += (by[i] + 1) >> 1;
     }
-    return q31_remember(self->prev, &self->count, dtheta_b);
+    return ins_q31_remember(self->prev, &self->count, dtheta_b);
 }
 
 void ins_q31w_get(const ins_q31w_t* self, int32_t q_nb[4])

@@ -11,29 +11,29 @@
 #define ETA_MAX   INS_C(0.1763) ///< a little over eta at INS_TM_DLON_MAX on the equator
 #define XI_MAX    INS_C(1.5708) ///< a little over pi/2
 
-#define R(numerator, denominator) ((ins_real)(numerator) / (ins_real)(denominator))
+#define RATIO(numerator, denominator) ((ins_real)(numerator) / (ins_real)(denominator))
 /// Row j: coefficients of n^(j+1) .. n^6 in alpha, beta (Karney 2011, equations 35, 36) and delta (conformal to geodetic latitude).
 static const ins_real alpha_n[INS_TM_ORDER][INS_TM_ORDER] = {
-    {R(1, 2), R(-2, 3), R(5, 16), R(41, 180), R(-127, 288), R(7891, 37800)},
-    {R(13, 48), R(-3, 5), R(557, 1440), R(281, 630), R(-1983433, 1935360)},
-    {R(61, 240), R(-103, 140), R(15061, 26880), R(167603, 181440)},
-    {R(49561, 161280), R(-179, 168), R(6601661, 7257600)},
-    {R(34729, 80640), R(-3418889, 1995840)},
-    {R(212378941, 319334400)}};
+    {RATIO(1, 2), RATIO(-2, 3), RATIO(5, 16), RATIO(41, 180), RATIO(-127, 288), RATIO(7891, 37800)},
+    {RATIO(13, 48), RATIO(-3, 5), RATIO(557, 1440), RATIO(281, 630), RATIO(-1983433, 1935360)},
+    {RATIO(61, 240), RATIO(-103, 140), RATIO(15061, 26880), RATIO(167603, 181440)},
+    {RATIO(49561, 161280), RATIO(-179, 168), RATIO(6601661, 7257600)},
+    {RATIO(34729, 80640), RATIO(-3418889, 1995840)},
+    {RATIO(212378941, 319334400)}};
 static const ins_real beta_n[INS_TM_ORDER][INS_TM_ORDER] = {
-    {R(1, 2), R(-2, 3), R(37, 96), R(-1, 360), R(-81, 512), R(96199, 604800)},
-    {R(1, 48), R(1, 15), R(-437, 1440), R(46, 105), R(-1118711, 3870720)},
-    {R(17, 480), R(-37, 840), R(-209, 4480), R(5569, 90720)},
-    {R(4397, 161280), R(-11, 504), R(-830251, 7257600)},
-    {R(4583, 161280), R(-108847, 3991680)},
-    {R(20648693, 638668800)}};
+    {RATIO(1, 2), RATIO(-2, 3), RATIO(37, 96), RATIO(-1, 360), RATIO(-81, 512), RATIO(96199, 604800)},
+    {RATIO(1, 48), RATIO(1, 15), RATIO(-437, 1440), RATIO(46, 105), RATIO(-1118711, 3870720)},
+    {RATIO(17, 480), RATIO(-37, 840), RATIO(-209, 4480), RATIO(5569, 90720)},
+    {RATIO(4397, 161280), RATIO(-11, 504), RATIO(-830251, 7257600)},
+    {RATIO(4583, 161280), RATIO(-108847, 3991680)},
+    {RATIO(20648693, 638668800)}};
 static const ins_real delta_n[INS_TM_ORDER][INS_TM_ORDER] = {
-    {2, R(-2, 3), -2, R(116, 45), R(26, 45), R(-2854, 675)},
-    {R(7, 3), R(-8, 5), R(-227, 45), R(2704, 315), R(2323, 945)},
-    {R(56, 15), R(-136, 35), R(-1262, 105), R(73814, 2835)},
-    {R(4279, 630), R(-332, 35), R(-399572, 14175)},
-    {R(4174, 315), R(-144838, 6237)},
-    {R(601676, 22275)}};
+    {2, RATIO(-2, 3), -2, RATIO(116, 45), RATIO(26, 45), RATIO(-2854, 675)},
+    {RATIO(7, 3), RATIO(-8, 5), RATIO(-227, 45), RATIO(2704, 315), RATIO(2323, 945)},
+    {RATIO(56, 15), RATIO(-136, 35), RATIO(-1262, 105), RATIO(73814, 2835)},
+    {RATIO(4279, 630), RATIO(-332, 35), RATIO(-399572, 14175)},
+    {RATIO(4174, 315), RATIO(-144838, 6237)},
+    {RATIO(601676, 22275)}};
 
 static void evaluate(const ins_real rows[INS_TM_ORDER][INS_TM_ORDER], ins_real n, ins_real out[INS_TM_ORDER])
 {
@@ -110,7 +110,7 @@ ins_status_t ins_tm_init(ins_tm_t* self, const ins_ellipsoid_t* ellipsoid, ins_r
                          ins_real false_easting, ins_real false_northing)
 {
     const ins_real sum = ellipsoid->a + false_easting + false_northing;
-    if (!(ellipsoid->f > 0 && ellipsoid->f <= F_MAX) || !(ins_fabs(lon0) <= PI) || !(k0 >= INS_C(0.5) && k0 <= 2) ||
+    if (!(ellipsoid->f > 0 && ellipsoid->f <= F_MAX) || !(ins_fabs(lon0) <= TM_PI) || !(k0 >= INS_C(0.5) && k0 <= 2) ||
         !(sum - sum == 0))
     {
         return INS_E_RANGE;
@@ -123,7 +123,7 @@ ins_status_t ins_tm_init(ins_tm_t* self, const ins_ellipsoid_t* ellipsoid, ins_r
     self->false_e = false_easting;
     self->false_n = false_northing;
     self->e = ins_sqrt(ellipsoid->e2);
-    self->unit = k0 * ellipsoid->a / (1 + n) * (1 + n2 * (R(1, 4) + n2 * (R(1, 64) + n2 * R(1, 256))));
+    self->unit = k0 * ellipsoid->a / (1 + n) * (1 + n2 * (RATIO(1, 4) + n2 * (RATIO(1, 64) + n2 * RATIO(1, 256))));
     evaluate(alpha_n, n, self->alpha);
     evaluate(beta_n, n, self->beta);
     evaluate(delta_n, n, self->delta);

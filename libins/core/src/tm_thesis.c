@@ -62,7 +62,7 @@ ins_status_t ins_tm_thesis_inverse(const ins_tm_t* self, const ins_real en[2], i
         a * (1 - e2 * (INS_C(0.25) + e2 * (INS_C(3.) / 64 + e2 * (INS_C(5.) / 256 + e2 * 175 / 16384))));
     const ins_real mu = (en[1] - self->false_n) / self->k0 / per_rad;
     const ins_real D_N1 = (en[0] - self->false_e) / self->k0; // D times N1
-    if (!(ins_fabs(mu) < PI / 2) || !(ins_fabs(D_N1) <= INS_TM_DLON_MAX * a))
+    if (!(ins_fabs(mu) < TM_PI / 2) || !(ins_fabs(D_N1) <= INS_TM_DLON_MAX * a))
     {
         return INS_E_RANGE;
     }
