@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The machines that the core is proven on: how to compile for each, and how to run what came out.
 
-Bare metal is picolibc with semihosting: no start-up code or linker script of ours; main's return value is QEMU's exit code.
+Bare metal is picolibc with semihosting: no start-up code or linker script of ours; QEMU exits with what main returns.
 """
 
 import os
@@ -81,7 +81,7 @@ class Machine:
             )
         except subprocess.TimeoutExpired as error:
             raise MachineError(
-                f"{self.name}: no end after {RUN_LIMIT_S} s (a trap hangs QEMU); look at it with: {' '.join(command)} -d int"
+                f"{self.name}: no end after {RUN_LIMIT_S} s (a trap hangs QEMU); look with -d int: {' '.join(command)}"
             ) from error
         return done.returncode, done.stdout
 
