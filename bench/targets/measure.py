@@ -4,8 +4,8 @@
     measure.py [--machines m0,m3] [--loads attitude.f32,q31] [--flags=-O2,-Os] [--json F]
 
 Instructions are counted by QEMU from the step's entry to its return, soft float included; they are not cycles: no wait
-states, no dual issue. .text is what a program that calls init and step takes of the core, constants included, soft float
-not; step, the step function alone. Stack is what the call stored to, soft float included.
+states, no dual issue. .text is what a program that calls init and step takes of the core, constants included, soft
+float not; step, the step function alone. Stack is what the call stored to, soft float included.
 """
 
 import argparse
