@@ -31,20 +31,6 @@ def test_every_scenario_key_is_documented():
     assert missing == []
 
 
-def test_the_c_example_of_the_readme_compiles_and_runs(tmp_path):
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    example = re.search(r"```c\n(.*?)```", text, re.DOTALL)
-    assert example
-    (tmp_path / "example.c").write_text(example[1], encoding="utf-8")
-    for flags, library in (([], "ins_core"), (["-DINS_REAL_FLOAT"], "ins_coref")):
-        archive = next(
-            (ROOT / "build/release/libins/core").glob({"ins_core": "libins.a", "ins_coref": "libinsf.a"}[library])
-        )
-        command = ["gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", *flags, f"-I{ROOT}/libins/core/include"]
-        subprocess.run([*command, tmp_path / "example.c", archive, "-lm", "-o", tmp_path / "example"], check=True)
-        subprocess.run([tmp_path / "example"], check=True)
-
-
 def test_the_commands_of_the_readme_exist(tmp_path):
     """Every `ins ...` line is taken by the command's own parser; `ins nav` lines by the daemon's."""
     text = (ROOT / "README.md").read_text(encoding="utf-8")

@@ -20,13 +20,16 @@ typedef struct acq_board_config_t
     emu_report_t report;
 } acq_board_config_t;
 
+/// 11.0592 MHz, the converter of tlc2543_default_config(), no reports.
 EMU_API void acq_board_default_config(acq_board_config_t* config);
 /// The board lives on a run's scheduler, from instant 0, and is its executor (it sets sched->earlier). \return NULL when memory is out or config is bad.
 EMU_API acq_board_t* acq_board_create(const acq_board_config_t* config, emu_sched_t* sched);
+/// NULL is allowed.
 EMU_API void acq_board_destroy(acq_board_t* self);
 /// Run firmware and events up to instant t; sched->now is t afterwards, or up to 3 machine cycles later where an instruction that
 /// touched a pin ended there. A power-down passes in time like the rest; MCS51_HALTED only says that nothing more will happen.
 EMU_API mcs51_stop_t acq_board_run(acq_board_t* self, emu_time_t t);
+/// The board's own CPU, to load and to inspect.
 EMU_API mcs51_t* acq_board_cpu(acq_board_t* self);
 /// By schematic name: "EOC", "I/O CLOCK", "DATA IN", "DATA OUT", "/CS", "TXD", "RXD". NULL if there is none.
 EMU_API emu_wire_t* acq_board_wire(acq_board_t* self, const char* name);

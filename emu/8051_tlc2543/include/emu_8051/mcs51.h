@@ -41,6 +41,7 @@ typedef enum mcs51_stop_t
 
 /// \return NULL when memory is out.
 EMU_API mcs51_t* mcs51_create(const mcs51_config_t* config);
+/// NULL is allowed.
 EMU_API void mcs51_destroy(mcs51_t* self);
 /// Reset pin: SFRs to their reset values, RAM kept. power_on also clears RAM (a choice; silicon is random) and sets POF.
 EMU_API void mcs51_reset(mcs51_t* self, bool power_on);
@@ -55,7 +56,9 @@ EMU_API mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle);
 EMU_API void mcs51_shorten(mcs51_t* self, uint64_t cycle);
 /// Now; exact also inside callbacks (an edge of TXD may be told up to 3 cycles late, with its own cycle in the call).
 EMU_API uint64_t mcs51_cycle(const mcs51_t* self);
+/// Instructions executed since create.
 EMU_API uint64_t mcs51_instructions(const mcs51_t* self);
+/// Interrupts taken since create.
 EMU_API uint64_t mcs51_interrupts(const mcs51_t* self);
 
 /// Levels the outside puts on a port's pins (1 where nothing pulls low). Pin read = latch AND outside. Edges reach INT0/1, T0/1, RXD.
@@ -63,15 +66,15 @@ EMU_API void mcs51_set_pins(mcs51_t* self, unsigned port, uint8_t outside, uint6
 /// What the port drives now (latch AND alternate output).
 EMU_API uint8_t mcs51_port_out(const mcs51_t* self, unsigned port);
 
-/// Debug access without side effects.
+/// Debug access without side effects, this and all below: program counter, internal RAM, SFRs, code memory.
 EMU_API uint16_t mcs51_pc(const mcs51_t* self);
-EMU_API void mcs51_set_pc(mcs51_t* self, uint16_t pc);
-EMU_API uint8_t mcs51_iram(const mcs51_t* self, uint8_t address); ///< 00..7F (FF on parts with 256 octets)
-EMU_API void mcs51_set_iram(mcs51_t* self, uint8_t address, uint8_t value);
+EMU_API void mcs51_set_pc(mcs51_t* self, uint16_t pc);                      ///< the next instruction is fetched there
+EMU_API uint8_t mcs51_iram(const mcs51_t* self, uint8_t address);           ///< 00..7F (FF on parts with 256 octets)
+EMU_API void mcs51_set_iram(mcs51_t* self, uint8_t address, uint8_t value); ///< as mcs51_iram
 EMU_API uint8_t mcs51_sfr(mcs51_t* self,
                           uint8_t address); ///< 80..FF; ports: the latch; TL, TH: as of until_cycle of the run
-EMU_API void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value);
-EMU_API uint8_t mcs51_code(const mcs51_t* self, uint16_t address);
+EMU_API void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value); ///< as mcs51_sfr
+EMU_API uint8_t mcs51_code(const mcs51_t* self, uint16_t address);         ///< 0000..0FFF
 
 #ifdef __cplusplus
 }

@@ -39,6 +39,7 @@ EMU_API void tlc2543_default_config(tlc2543_config_t* config);
 /// Connect the five wires. \return NULL when memory is out, a wire has no room, or the reference span is not positive.
 EMU_API tlc2543_t* tlc2543_create(const tlc2543_config_t* config, emu_sched_t* sched, emu_wire_t* eoc,
                                   emu_wire_t* io_clock, emu_wire_t* data_in, emu_wire_t* data_out, emu_wire_t* cs_n);
+/// NULL is allowed.
 EMU_API void tlc2543_destroy(tlc2543_t* self);
 
 #ifdef __cplusplus

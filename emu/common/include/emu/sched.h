@@ -27,9 +27,11 @@ typedef struct emu_sched_t
     void* earlier_ctx;
 } emu_sched_t;
 
+/// No events, instant 0.
 EMU_API void emu_sched_init(emu_sched_t* self);
 /// Set or move an event. `at` before self->now means now.
 EMU_API void emu_sched_at(emu_sched_t* self, emu_event_t* event, emu_time_t at);
+/// Take an event out; nothing happens when it is not pending.
 EMU_API void emu_sched_cancel(emu_sched_t* self, emu_event_t* event);
 /// Instant of the earliest event, or EMU_TIME_MAX.
 EMU_API emu_time_t emu_sched_next(const emu_sched_t* self);

@@ -48,6 +48,7 @@ EMU_API void emu_wire_init(emu_wire_t* self, const char* name, bool level);
 EMU_API int emu_wire_add_driver(emu_wire_t* self);
 /// fn is called after each change of level, in the order of registration; it must not drive this wire. \return 0, or -1 when full.
 EMU_API int emu_wire_watch(emu_wire_t* self, emu_wire_fn fn, void* ctx);
+/// What a driver puts on the wire from `at` on; watchers are told when the level changes.
 EMU_API void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t at);
 
 #ifdef __cplusplus

@@ -1,7 +1,8 @@
 /// \file   ins/coning.h
 /// \brief  Rotation vector of an interval from the gyro's angle increments, coning corrected. Frame: b. Unit: rad.
 ///
-///     ins_real theta[9];                                  // three increments, oldest first
+///     ins_real theta[9];
+///     for (i = 0; i < 9; i++) { theta[i] = sample(i); }   // three increments, oldest first
 ///     ins_coning_phi(INS_CONING_BLOCK3_OPT, theta, phi);  // then q_nb = q_nb q(phi)
 ///
 /// Phi = sum theta_i + sum c_ij theta_i x theta_j. Block forms span all their increments. History forms span the last increment

@@ -2,9 +2,9 @@
 /// \brief  Fusion of several estimates of one state, information sharing, and the switch between GPS and dead reckoning.
 ///
 ///     ins_fusion_clear(n, info, y);
-///     for (...) { ins_fusion_add(n, info, y, x_i, P_i, work); }                  // info += P_i^-1, y += P_i^-1 x_i
+///     for (i = 0; i < count; i++) { ins_fusion_add(n, info, y, x_i[i], P_i[i], work); } // info += P_i^-1, y += P_i^-1 x_i
 ///     ins_fusion_solve(n, info, y, x, P);                                        // P = info^-1, x = P y
-///     ins_fusion_share(n, P, beta_i, P_i);                                    // back to the local filters: sum beta = 1
+///     ins_fusion_share(n, P, beta, P_i[0]);                                   // back to the local filters: sum beta = 1
 ///
 /// Fusion takes the estimates for uncorrelated. Information sharing (P/beta and Q/beta in each local filter) stays conservative when
 /// they start from the same state.

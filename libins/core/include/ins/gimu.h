@@ -3,8 +3,8 @@
 ///
 ///     ins_gimu_t g;
 ///     ins_gimu_init(&g, 1);
-///     if (ins_gimu_rx(&g, octet) != INS_GIMU_NOTHING) { ... g.packet ... }    // each octet
-///     if (ins_gimu_flush(&g) != INS_GIMU_NOTHING) { ... }                     // the line has been silent
+///     if (ins_gimu_rx(&g, octet) != INS_GIMU_NOTHING) { use(&g.packet); }     // each octet
+///     if (ins_gimu_flush(&g) != INS_GIMU_NOTHING) { use(&g.packet); }         // the line has been silent
 ///
 ///     type 1, 14 octets: AA 55, P, Q, R, AX, AY, AZ (16 bits each, 12 used)
 ///     type 2, 23 octets: type 1, two coordinates (32 bits each), satellites (8 bits); the thesis's text says 22

@@ -61,6 +61,7 @@ typedef struct ins_hs_board_t
     uint16_t given_up; ///< blocks dropped after the last retry
 } ins_hs_board_t;
 
+/// Nothing on its way, counters 0. \return INS_OK; INS_E_RANGE for a cfg that ins_hs_config_t does not allow.
 INS_API ins_status_t ins_hs_board_init(INS_HS_MEM ins_hs_board_t* self, const ins_hs_config_t* cfg);
 /// Offer a block for transmission, with its sequence number (ignored with cfg.seq = 0).
 /// \return INS_OK; INS_E_STATE while an earlier block is on its way (nothing changed; see ins_hs_board_busy).
@@ -104,6 +105,7 @@ typedef struct ins_hs_host_t
     uint32_t stray;      ///< octets that fit nowhere
 } ins_hs_host_t;
 
+/// In idle, counters 0. \return as ins_hs_board_init().
 INS_API ins_status_t ins_hs_host_init(ins_hs_host_t* self, const ins_hs_config_t* cfg);
 /// An octet came from the board. \param[out] reply octet to send back (BB, 00, FF), or -1. \return one of INS_HS_*.
 INS_API int ins_hs_host_rx(ins_hs_host_t* self, ins_octet_t octet, uint16_t now, int16_t* reply);

@@ -44,12 +44,16 @@ typedef struct ins_link_board_t
 /// \param[in] cfg  as for ins_hs_board_init(); cfg.seq says whether the paper's form carries a number too.
 /// \return also INS_E_RANGE for a block_len above INS_LINK_BLOCK_MAX.
 INS_API ins_status_t ins_link_board_init(ins_link_board_t* self, const ins_hs_config_t* cfg);
-/// As the functions of the same names in ins/handshake.h.
+/// As ins_hs_board_offer().
 INS_API ins_status_t ins_link_board_offer(ins_link_board_t* self, const ins_octet_t* block, uint_least8_t seq,
                                           uint16_t now);
+/// As ins_hs_board_busy().
 INS_API uint_least8_t ins_link_board_busy(const ins_link_board_t* self);
+/// As ins_hs_board_tx().
 INS_API int16_t ins_link_board_tx(ins_link_board_t* self, uint16_t now);
+/// As ins_hs_board_rx().
 INS_API void ins_link_board_rx(ins_link_board_t* self, ins_octet_t octet, uint16_t now);
+/// As ins_hs_board_tick().
 INS_API void ins_link_board_tick(ins_link_board_t* self, uint16_t now);
 
 /// Host side. hs's block, seq, gap and counters are valid for both forms.
@@ -61,8 +65,11 @@ typedef struct ins_link_host_t
     uint16_t crc;
 } ins_link_host_t;
 
+/// As ins_hs_host_init(), and INS_E_RANGE for a block_len above INS_LINK_BLOCK_MAX.
 INS_API ins_status_t ins_link_host_init(ins_link_host_t* self, const ins_hs_config_t* cfg);
+/// As ins_hs_host_rx(), for either form.
 INS_API int ins_link_host_rx(ins_link_host_t* self, ins_octet_t octet, uint16_t now, int16_t* reply);
+/// As ins_hs_host_tick().
 INS_API void ins_link_host_tick(ins_link_host_t* self, uint16_t now);
 
 #ifdef __cplusplus

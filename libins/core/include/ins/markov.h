@@ -3,7 +3,7 @@
 ///
 ///     ins_markov_t m;
 ///     ins_markov_init(&m, dt, INS_MARKOV_STRAPDOWN_TAU_S, INS_MARKOV_STRAPDOWN_SIGMA);
-///     Phi[..] = m.phi; Q[..] = m.q;                                           // P0[..] = sigma^2
+///     Phi[0] = m.phi; Q[0] = m.q;                                             // P0[0] = sigma^2
 ///
 /// phi = exp(-T/tau), q = sigma^2 (1 - phi^2); the white noise that drives it has the spectral density 2 sigma^2/tau.
 /// Source: 2006 GIMU thesis, 2-27 to 2-29 and the values after them (its 2-28 prints the square root of the density).

@@ -3,11 +3,11 @@
 ///
 ///     ins_nmea_t n;
 ///     ins_nmea_init(&n);
-///     if (ins_nmea_rx(&n, octet) != INS_NMEA_NOTHING) { ... n.fix ... }       // each octet
+///     if (ins_nmea_rx(&n, octet) != INS_NMEA_NOTHING) { use(&n.fix); }        // each octet
 ///
 /// A sentence counts when its checksum agrees and every field that is there can be read; it is given out with the carriage
-/// return or line feed after it. Empty fields leave their bit in fix.has unset. Digits beyond those kept are cut off: seven of a minute, three of
-/// another figure. Only one sentence is held: nothing is merged.
+/// return or line feed after it. Empty fields leave their bit in fix.has unset. Digits beyond those kept are cut off: seven of a
+/// minute, three of another figure. Only one sentence is held: nothing is merged.
 /// Source: NMEA 0183 v4.10, GGA, RMC, VTG; checksum: exclusive or of what stands between $ and *.
 /// SPDX-License-Identifier: MIT
 #ifndef INS_NMEA_H_INCLUDED
@@ -74,6 +74,7 @@ typedef struct ins_nmea_t
     uint32_t other;        ///< right, but none of the three
 } ins_nmea_t;
 
+/// Nothing seen yet, all counters 0.
 INS_API void ins_nmea_init(ins_nmea_t* self);
 /// An octet came. \return INS_NMEA_GGA, RMC or VTG: self->fix has it; else INS_NMEA_NOTHING.
 INS_API int ins_nmea_rx(ins_nmea_t* self, ins_octet_t octet);

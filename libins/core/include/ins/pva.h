@@ -4,7 +4,7 @@
 ///     ins_pva_t east;
 ///     ins_pva_init(&east, var);                          // var: variances of the unknown start, m^2, (m/s)^2, (m/s^2)^2
 ///     ins_pva_predict(&east, dt, q);
-///     ins_innovation_t z = {e - east.x[0], r, INS_KALMAN_GATE_99, 0};
+///     ins_innovation_t z = {fix - east.x[0], r, INS_KALMAN_GATE_99, 0};
 ///     ins_pva_update(&east, INS_PVA_POSITION, &z);
 ///
 /// Jerk is white noise of spectral density q [m^2/s^5]. One filter an axis.

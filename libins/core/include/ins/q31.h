@@ -36,11 +36,13 @@ typedef struct ins_q31w_t
 
 /// \param[in] q_nb  [4] Q30. \return INS_OK; INS_E_RANGE for a norm that is not within 1e-3 of 1 (it is normalised).
 INS_API ins_status_t ins_q31_init(ins_q31_t* self, const int32_t q_nb[4]);
-/// \param[in] dtheta_b  [3] Q31 [rad], |dtheta| <= 0.5.
+/// Turn by one increment. \param[in] dtheta_b  [3] Q31 [rad], |dtheta| <= 0.5.
 /// \return INS_OK; INS_S_START for the first two; INS_E_RANGE for a larger one, and then self is unchanged.
 INS_API ins_status_t ins_q31_step(ins_q31_t* self, const int32_t dtheta_b[3]);
 
+/// As ins_q31_init(); normalised to 62 places.
 INS_API ins_status_t ins_q31w_init(ins_q31w_t* self, const int32_t q_nb[4]);
+/// As ins_q31_step().
 INS_API ins_status_t ins_q31w_step(ins_q31w_t* self, const int32_t dtheta_b[3]);
 /// \param[out] q_nb  [4] Q30, rounded.
 INS_API void ins_q31w_get(const ins_q31w_t* self, int32_t q_nb[4]);

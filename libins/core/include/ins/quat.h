@@ -32,12 +32,13 @@ INS_API void ins_quat_normalise_approx(ins_real q[4]);
 /// \return INS_OK; INS_E_RANGE for NaN or |phi| > INS_ROTVEC_MAX, q unchanged.
 INS_API ins_status_t ins_quat_from_rotvec(const ins_real phi[3], ins_real q[4]);
 
-/// Uses libm's sin and cos.
+/// \param[in] euler  [3] roll, pitch, yaw [rad]. \param[out] q_nb  [4]. Uses libm's sin and cos.
 INS_API void ins_quat_from_euler(const ins_real euler[3], ins_real q_nb[4]);
 /// Uses libm's atan2, for display and comparison. roll, yaw in [-pi, pi], pitch in [-pi/2, pi/2]. At a pole of pitch only
 /// yaw - roll (nose up) or yaw + roll (nose down) has a meaning: there the roll returned is 0, so no angle is noise.
 INS_API void ins_quat_to_euler(const ins_real q_nb[4], ins_real euler[3]);
 
+/// \param[in] q_nb  [4] of unit length. \param[out] C_nb  [9] row-major, v_n = C_nb v_b.
 INS_API void ins_quat_to_dcm(const ins_real q_nb[4], ins_real C_nb[9]);
 /// \return INS_OK; INS_E_RANGE unless C_nb is a rotation (each element within 1e-3 of the one that q_nb gives), q_nb unchanged.
 INS_API ins_status_t ins_quat_from_dcm(const ins_real C_nb[9], ins_real q_nb[4]);

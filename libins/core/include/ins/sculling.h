@@ -3,7 +3,7 @@
 ///
 ///     ins_sculling_t s;
 ///     ins_sculling_init(&s, INS_CONING_HIST2_OPT, q_nb0);
-///     for (;;) { ins_sculling_step(&s, &increment, dv_b); ... }     // s.q_nb, and dv_b in b at the interval's start
+///     for (;;) { ins_sculling_step(&s, &increment, dv_b); use(dv_b); } // s.q_nb, and dv_b in b at the interval's start
 ///
 /// dv = v + theta x v / 2 + sum c_ij (theta_i x v_j + v_i x theta_j): the coefficients of coning serve here too (duality), so both
 /// share their history. Inputs are the integrals of rate and specific force over the interval, in the moving body frame.

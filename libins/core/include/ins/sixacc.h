@@ -2,7 +2,8 @@
 /// \brief  Motion from six or more accelerometers without gyros: angular acceleration, rate, specific force. Frame: b. SI.
 ///
 ///     ins_accel_t a[6];
-///     ins_sixacc_paper(0.1, a);                             // or any N >= 6 of your own
+///     ins_sixacc_t s;
+///     ins_sixacc_paper(INS_C(0.1), a);                      // or any N >= 6 of your own
 ///     ins_sixacc_init(&s, 6, a, period_s);
 ///     for (;;) { ins_sixacc_step(&s, readings, &increment); }   // increment goes to ins_strapdown_step
 ///

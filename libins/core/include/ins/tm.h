@@ -2,7 +2,7 @@
 /// \brief  Transverse Mercator, and TM2 of TWD97 in its zones 121 and 119. Units: rad, m.
 ///
 ///     ins_tm_t tm;
-///     ins_tm_init_twd97(&tm, ins_twd97_zone(lon));        // EPSG:3826 (121) or EPSG:3825 (119)
+///     ins_tm_init_twd97(&tm, ins_twd97_zone(lon));         // EPSG:3826 (121) or EPSG:3825 (119)
 ///     ins_tm_forward(&tm, lat, lon, en, NULL);            // en = {easting, northing}
 ///
 /// Krueger's series to the sixth order in n: 1e-8 m within 10 degrees of the central meridian (double). In float a northing of
@@ -54,9 +54,10 @@ INS_API ins_status_t ins_tm_forward(const ins_tm_t* self, ins_real lat, ins_real
 /// \return INS_OK; INS_E_RANGE for NaN or a point outside of what forward gives.
 INS_API ins_status_t ins_tm_inverse(const ins_tm_t* self, const ins_real en[2], ins_real lat_lon[2]);
 
-/// The series of a 2009 thesis on a GPS-enabled IMU, equations 5.6 to 5.9, corrected (docs/geodesy.md), for comparison with its results.
-/// Forward within 1.3 degrees of the central meridian: 1e-7 m; inverse 1e-4 m. \return as ins_tm_forward, ins_tm_inverse.
+/// The series of a 2009 thesis on a GPS-enabled IMU, equations 5.6 and 5.7, corrected (docs/geodesy.md), for comparison with its results.
+/// Forward within 1.3 degrees of the central meridian: 1e-7 m; inverse 1e-4 m. \return as ins_tm_forward().
 INS_API ins_status_t ins_tm_thesis_forward(const ins_tm_t* self, ins_real lat, ins_real lon, ins_real en[2]);
+/// As ins_tm_inverse(), by equations 5.8 and 5.9.
 INS_API ins_status_t ins_tm_thesis_inverse(const ins_tm_t* self, const ins_real en[2], ins_real lat_lon[2]);
 
 #ifdef __cplusplus

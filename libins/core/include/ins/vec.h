@@ -10,6 +10,7 @@
 extern "C" {
 #endif
 
+/// a . b
 static inline ins_real ins_vec_dot(const ins_real a[3], const ins_real b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -37,6 +38,7 @@ static inline int ins_vec_is_finite(const ins_real v[3])
     return v[0] - v[0] == 0 && v[1] - v[1] == 0 && v[2] - v[2] == 0;
 }
 
+/// to = from
 static inline void ins_vec_copy(const ins_real from[3], ins_real to[3])
 {
     to[0] = from[0];

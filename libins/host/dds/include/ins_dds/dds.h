@@ -45,7 +45,7 @@ typedef struct ins_dds_config_t
 {
     uint32_t domain;       ///< 0..INS_DDS_DOMAIN_MAX
     int network;           ///< INS_DDS_LOOPBACK ...
-    const char* xml;       ///< with INS_DDS_XML: a <CycloneDDS> document (text, not a file name)
+    const char* xml;       ///< with INS_DDS_XML: a CycloneDDS XML document (text, not a file name)
     const char* topic;     ///< topic name
     const char* partition; ///< NULL = the default partition
     int publishes;         ///< 1: there is a writer

@@ -4,7 +4,11 @@
 ///     ins_nav_config_t cfg;
 ///     ins_nav_config_default(&cfg);
 ///     ins_nav_init(&nav, &cfg);
-///     for (each octet) { if (ins_nav_octet(&nav, octet, now_ms, &reply, &state) == 1) { use(&state); } if (reply >= 0) { send(reply); } }
+///     while (receive(&octet))
+///     {
+///         if (ins_nav_octet(&nav, octet, now_ms, &reply, &state) == 1) { use(&state); }
+///         if (reply >= 0) { send(reply); }
+///     }
 ///
 /// Two halves: ins_nav_link_t turns octets into numbered samples, ins_nav_solver_t turns samples into attitude. A program with two
 /// threads holds one half in each; ins_nav_t is both in one. No thread, no clock, no transport, no allocation.
@@ -68,14 +72,17 @@ INS_API int ins_nav_link_octet(ins_nav_link_t* self, ins_octet_t octet, uint64_t
 /// Time passes and no octet is waiting: call at least every octet_timeout_ms.
 INS_API void ins_nav_link_tick(ins_nav_link_t* self, uint64_t now_ms);
 
+/// \return INS_OK; INS_E_RANGE (ins_nav_config_problem tells why).
 INS_API ins_status_t ins_nav_solver_init(ins_nav_solver_t* self, const ins_nav_config_t* cfg);
 /// \param[in] sample its index must be above the last one's. \return INS_OK; INS_E_RANGE, nothing changed.
 INS_API ins_status_t ins_nav_solver_step(ins_nav_solver_t* self, const ins_nav_sample_t* sample,
                                          ins_nav_state_t* state);
 
+/// Both halves. \return INS_OK; INS_E_RANGE (ins_nav_config_problem tells why).
 INS_API ins_status_t ins_nav_init(ins_nav_t* self, const ins_nav_config_t* cfg);
 /// Link and solver in one. \return 1: *state is new; 0.
 INS_API int ins_nav_octet(ins_nav_t* self, ins_octet_t octet, uint64_t now_ms, int* reply, ins_nav_state_t* state);
+/// As ins_nav_link_tick().
 INS_API void ins_nav_tick(ins_nav_t* self, uint64_t now_ms);
 /// A sample that came another way, after `lost` missing ones. \return INS_OK; INS_E_RANGE for a code above code_max.
 INS_API ins_status_t ins_nav_codes(ins_nav_t* self, const uint16_t code[3], uint32_t lost, ins_nav_state_t* state);

@@ -4,7 +4,7 @@
 ///     ins_gyro_config_t c;
 ///     ins_gyro_default_config(&c);
 ///     ins_gyro_t g;
-///     if (ins_gyro_init(&g, &c, motion, why, sizeof why)) { board.volts = ins_gyro_volts; board.ctx = &g; }
+///     if (ins_gyro_init(&g, &c, motion, why, sizeof why)) { adc.analog.volts = ins_gyro_volts; adc.analog.ctx = &g; }
 ///
 /// rate  = (1 + scale_error) * lowpass(axis . w_ib_b) + bias + drift * t + noise
 /// volts = null_v + gain * sensitivity * rate, clipped to the rails

@@ -64,6 +64,7 @@ INS_TRUTH_API void ins_motion_destroy(ins_motion_t* self); ///< NULL is allowed.
 /// The time the motion is known for [s]: the rows of a table, -infinity to infinity for the others.
 INS_TRUTH_API void ins_motion_span(const ins_motion_t* self, double* first, double* last);
 
+/// \param[out] q_nb  [4] scalar first.
 INS_TRUTH_API void ins_motion_attitude(const ins_motion_t* self, double t, double q_nb[4]);
 /// rpy = roll, pitch, yaw; roll and yaw in [-pi, pi], pitch in [-pi/2, pi/2], whatever turns the motion has made.
 INS_TRUTH_API void ins_motion_euler(const ins_motion_t* self, double t, double rpy[3]);

@@ -1,0 +1,119 @@
+"""Every C example compiles in both number types: ```c blocks of README and docs, usage examples of public headers."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).resolve().parent
+INCLUDES = [
+    "libins/core/include",
+    "libins/host/truth/include",
+    "libins/host/navd/include",
+    "libins/host/dds/include",
+    "emu/common/include",
+    "emu/8051_tlc2543/include",
+]
+GCC = ["gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable", *[f"-I{ROOT / i}" for i in INCLUDES]]
+TYPES = {"double": ([], "libins.a"), "float": (["-DINS_REAL_FLOAT"], "libinsf.a")}
+# Names that an example uses with another type than prelude.h gives them.
+OWN_NAMES = {
+    "ins/batch.h": "ins_real q_nb0[4 * N] = {0}, dtheta_b[3 * N] = {0};",
+    "ins/gps_axis.h": "ins_real var[4] = {0};",
+    "ins/q31.h": "int32_t q_nb0[4] = {0}, dtheta_b[3] = {0};",
+}
+
+
+def pages() -> list[Path]:
+    return [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+
+
+def blocks_of_page(text: str) -> list[str]:
+    return re.findall(r"^```c\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
+
+
+def blocks_of_header(text: str) -> list[str]:
+    """The indented blocks of the comment at the top that call this project's functions; other blocks are diagrams."""
+    top = text.split("#ifndef", 1)[0]
+    found = re.findall(r"((?:^///     .*\n)+)", top, re.MULTILINE)
+    examples = ["".join(line[8:] + "\n" for line in block.splitlines()) for block in found]
+    return [example for example in examples if re.search(r"\b(ins|emu|acq_board|mcs51|tlc2543)_\w+\(", example)]
+
+
+def headers() -> list[Path]:
+    return sorted(path for include in INCLUDES for path in (ROOT / include).rglob("*.h"))
+
+
+def name(header: Path) -> str:
+    return str(header.relative_to(next(ROOT / i for i in INCLUDES if header.is_relative_to(ROOT / i))))
+
+
+PAGE_EXAMPLES = [
+    pytest.param(block, id=f"{page.relative_to(ROOT)}-{n}")
+    for page in pages()
+    for n, block in enumerate(blocks_of_page(page.read_text(encoding="utf-8")), start=1)
+]
+HEADER_EXAMPLES = [
+    pytest.param(header, block, id=f"{name(header)}-{n}")
+    for header in headers()
+    for n, block in enumerate(blocks_of_header(header.read_text(encoding="utf-8")), start=1)
+]
+
+
+def only_double(example: str) -> bool:
+    """The host's and the emulator's libraries have one number type."""
+    return re.search(r"\b(ins_(nav|dds|motion|gyro)|emu|acq_board)_\w+", example) is not None
+
+
+def compile_body(tmp_path: Path, example: str, own_names: str, flags: list[str]) -> None:
+    source = tmp_path / "example.c"
+    source.write_text(
+        f'#include "{HERE}/prelude.h"\nvoid example(void);\nvoid example(void)\n{{\n{own_names}\n{{\n{example}}}\n}}\n',
+        encoding="utf-8",
+    )
+    done = subprocess.run([*GCC, *flags, "-c", source, "-o", tmp_path / "example.o"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("number", TYPES)
+@pytest.mark.parametrize(("header", "example"), HEADER_EXAMPLES)
+def test_the_example_of_a_header_compiles(header: Path, example: str, number: str, tmp_path: Path) -> None:
+    if number == "float" and only_double(example):
+        return
+    compile_body(tmp_path, example, OWN_NAMES.get(name(header), ""), TYPES[number][0])
+
+
+@pytest.mark.parametrize("number", TYPES)
+@pytest.mark.parametrize("example", PAGE_EXAMPLES)
+def test_the_example_of_a_page_compiles(example: str, number: str, tmp_path: Path) -> None:
+    """One with a main() is linked and run as well."""
+    flags, archive = TYPES[number]
+    if number == "float" and only_double(example):
+        return
+    if "int main(" not in example:
+        compile_body(tmp_path, example, "", flags)
+        return
+    source, program = tmp_path / "example.c", tmp_path / "example"
+    source.write_text(example, encoding="utf-8")
+    library = ROOT / "build/release/libins/core" / archive
+    assert library.exists(), f"{library} is missing: run ./dev test"
+    done = subprocess.run([*GCC, *flags, source, library, "-lm", "-o", program], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    subprocess.run([program], check=True, timeout=10)
+
+
+def test_there_are_examples() -> None:
+    """Guards the extraction: these headers show how they are used, and README is a program."""
+    shown = {name(p.values[0]) for p in HEADER_EXAMPLES}
+    assert {"ins/attitude.h", "ins/kalman.h", "ins/strapdown.h", "ins/tm.h", "ins_nav/nav.h"} <= shown
+    assert any("README" in str(p.id) and "int main(" in p.values[0] for p in PAGE_EXAMPLES)
+
+
+def test_a_wrong_example_is_found(tmp_path: Path) -> None:
+    [block] = blocks_of_header(
+        "/// \\file x\n///\n///     ins_attitude_t a;\n///     ins_attitude_start(&a);\n#ifndef X\n"
+    )
+    with pytest.raises(AssertionError, match="ins_attitude_start"):
+        compile_body(tmp_path, block, "", [])

@@ -1,0 +1,47 @@
+"""Every header of the core has a page, every public function says what it does, no page has a dead link."""
+
+import re
+from pathlib import Path
+
+import pytest
+from test_examples import ROOT, headers, name, pages
+
+DECLARATION = re.compile(r"^(?:[A-Z_]+_API (?!extern)|static inline )[^;{]*?(\w+)\(", re.MULTILINE)
+
+
+def undocumented(text: str) -> list[str]:
+    """Functions with neither a /// comment before them nor a ///< after them."""
+    found = []
+    for match in DECLARATION.finditer(text):
+        before = text[: match.start()].rsplit("\n", 2)[-2]
+        statement = text[match.start() :].split(";", 1)[1].split("\n", 1)[0]
+        if not before.startswith("///") and "///<" not in statement:
+            found.append(match[1])
+    return found
+
+
+@pytest.mark.parametrize("header", headers(), ids=name)
+def test_every_function_says_what_it_does(header: Path) -> None:
+    assert undocumented(header.read_text(encoding="utf-8")) == []
+
+
+def test_a_function_without_a_comment_is_found() -> None:
+    text = "/// Does.\nINS_API int a(int x,\n    int y);\nINS_API int b(void);\nINS_API void c(void); ///< Does.\n\n"
+    assert undocumented(text) == ["b"]
+
+
+def test_every_header_of_the_core_has_a_page() -> None:
+    modules = [page.read_text(encoding="utf-8") for page in (ROOT / "docs").glob("*.md")]
+    core = [name(header) for header in headers() if name(header).startswith("ins/")]
+    missing = [header for header in core if not any(f"`{header}`" in text for text in modules)]
+    assert missing == [], "name each in backticks on the page that explains it"
+
+
+def test_every_link_of_a_page_leads_somewhere() -> None:
+    dead = [
+        f"{page.relative_to(ROOT)}: {target}"
+        for page in pages()
+        for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", page.read_text(encoding="utf-8"))
+        if "://" not in target and not (page.parent / target).exists()
+    ]
+    assert dead == []
