@@ -37,6 +37,17 @@ def test_every_header_of_the_core_has_a_page() -> None:
     assert missing == [], "name each in backticks on the page that explains it"
 
 
+def test_every_header_is_on_an_api_page() -> None:
+    listed = [
+        header
+        for page in sorted((ROOT / "docs/api").glob("*.md"))
+        for header in re.findall(
+            r"^## (\S+)\n\n```\{doxygenfile\} \S+$", page.read_text(encoding="utf-8"), re.MULTILINE
+        )
+    ]
+    assert sorted(listed) == sorted(name(header) for header in headers())
+
+
 def test_every_link_of_a_page_leads_somewhere() -> None:
     dead = [
         f"{page.relative_to(ROOT)}: {target}"

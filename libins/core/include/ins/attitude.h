@@ -5,7 +5,7 @@
 ///     ins_attitude_init(&a, INS_CONING_HIST2_OPT, q_nb0);
 ///     for (;;) { ins_attitude_step(&a, dtheta_b); use(a.q_nb); }
 ///
-/// One increment is one update (single interval with history, DESIGN's default). Start-up uses 0, 1, 2 previous increments as they come.
+/// One increment is one update (single interval with history). Start-up uses 0, 1, 2 previous increments as they come.
 /// SPDX-License-Identifier: MIT
 #ifndef INS_ATTITUDE_H_INCLUDED
 #define INS_ATTITUDE_H_INCLUDED

@@ -46,8 +46,9 @@ typedef struct ins_dr_ekf_t
     uint_least32_t gated; ///< measurements refused by the gate
 } ins_dr_ekf_t;
 
-/// \param[in] x, var  [6] start and its variances. \return INS_E_RANGE: dt, tau, r or v_zero is not positive, or sigma, var, gate or
-/// v_min - v_zero is negative, or one is not a number.
+/// \param[in] x  [6] start. \param[in] var  [6] its variances.
+/// \return INS_E_RANGE: dt, tau, r or v_zero is not positive, or sigma, var, gate or v_min - v_zero is negative, or one is not a
+/// number.
 INS_API ins_status_t ins_dr_ekf_init(ins_dr_ekf_t* self, const ins_dr_ekf_config_t* cfg, const ins_real x[6],
                                      const ins_real var[6]);
 /// Predict by dt, then update with what may be used; both Jacobians are taken at the prediction.

@@ -39,7 +39,7 @@ typedef struct ins_innovation_t
 
 /// x = Phi x and P = Phi P Phi' + Q.
 /// \param[in,out] x  [n], or 0: the caller has moved it by its own model. \param[in,out] P  [n n] symmetric.
-/// \param[in] Phi, Q  [n n]. \param work  [INS_KALMAN_WORK(n)].
+/// \param[in] Phi  [n n]. \param[in] Q  [n n]. \param work  [INS_KALMAN_WORK(n)].
 INS_API void ins_kalman_predict(unsigned n, ins_real* x, ins_real* P, const ins_real* Phi, const ins_real* Q,
                                 ins_real* work);
 /// x = x + K v and P = (I - K h) P (I - K h)' + K r K'.

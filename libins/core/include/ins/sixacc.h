@@ -49,7 +49,7 @@ INS_API void ins_sixacc_paper(ins_real rho, ins_accel_t accels[6]);
 /// Rate 0. \return INS_OK; INS_E_RANGE unless 6 <= count <= INS_SIXACC_MAX, period_s > 0, all numbers finite and the six unknowns
 /// observable.
 INS_API ins_status_t ins_sixacc_init(ins_sixacc_t* self, unsigned count, const ins_accel_t* accels, ins_real period_s);
-/// One instant, for a known rate. \param[in] readings  [count]. \param[out] wd_ib_b, f_b  [3] [rad/s^2], [m/s^2].
+/// One instant, for a known rate. \param[in] readings  [count]. \param[out] wd_ib_b  [3] [rad/s^2]. \param[out] f_b  [3] [m/s^2].
 INS_API void ins_sixacc_resolve(const ins_sixacc_t* self, const ins_real* readings, const ins_real w_ib_b[3],
                                 ins_real wd_ib_b[3], ins_real f_b[3]);
 /// Next sample: rate by the trapezoid of the angular acceleration, products of the rate taken at mid-interval.

@@ -33,7 +33,7 @@ typedef struct ins_thesis_t
 } ins_thesis_t;
 
 /// P of (2-15)..(2-19): the quaternion of one interval, not normalised (|P|^2 = 1 - |theta|^4 / 192 + ...). Any input.
-/// \param[in] theta_b, prev_b  [3] increments of the interval and of the one before [rad]. \param[out] p  [4]
+/// \param[in] theta_b  [3] increment of the interval, \param[in] prev_b  [3] of the one before [rad]. \param[out] p  [4]
 INS_API void ins_thesis_p(const ins_real theta_b[3], const ins_real prev_b[3], ins_real p[4]);
 /// \return INS_OK; INS_E_RANGE for NaN, or a quaternion whose norm is not within 1e-3 of 1 (it is normalised).
 INS_API ins_status_t ins_thesis_init(ins_thesis_t* self, const ins_real q_nb[4]);

@@ -44,7 +44,7 @@ typedef struct ins_unicycle_t
     ins_real P[36];
 } ins_unicycle_t;
 
-/// \param[in] x, var  [6] start and its variances; the heading is wrapped.
+/// \param[in] x  [6] start; the heading is wrapped. \param[in] var  [6] its variances.
 /// \return INS_E_RANGE: r not positive, another figure negative, not a number, or the heading beyond +-1000 rad.
 INS_API ins_status_t ins_unicycle_init(ins_unicycle_t* self, const ins_unicycle_config_t* cfg, const ins_real x[6],
                                        const ins_real var[6]);
