@@ -28,12 +28,13 @@ ins_status_t ins_attitude_step(ins_attitude_t* self, const ins_real dtheta_b[3])
     static const ins_coning_row_t row = CONING_ROW_HIST2_OPT;
     if (self->form == INS_CONING_HIST2_OPT && self->count == 2)
     {
+        const ins_real theta[3] = {dtheta_b[0], dtheta_b[1], dtheta_b[2]};
         ins_real phi[3];
-        rotation_vector(self, &row, dtheta_b, phi);
+        rotation_vector(self, &row, theta, phi);
         const ins_real u = ins_vec_dot(phi, phi);
         if (u <= HALF_U_MAX)
         {
-            turn(self, HALF_COS_0 + INS_C(0.5) + half_cos_rest(u), half_sinc(u), phi, dtheta_b, row.samples);
+            turn(self, HALF_COS_0 + INS_C(0.5) + half_cos_rest(u), half_sinc(u), phi, theta, row.samples);
             return INS_OK;
         }
     }

@@ -24,13 +24,13 @@ static inline void turn(ins_attitude_t* self, ins_real c, ins_real s, const ins_
 {
     ins_real* q = self->q_nb;
     const ins_real dq[4] = {c - INS_C(0.5) * quat_norm2(q), s * phi[0], s * phi[1], s * phi[2]};
-    quat_mul(q, dq, q);
     if (samples > 3)
     {
         ins_vec_copy(self->prev[1], self->prev[2]);
     }
     ins_vec_copy(self->prev[0], self->prev[1]);
     ins_vec_copy(theta, self->prev[0]);
+    quat_mul(q, dq, q);
 }
 
 /// The coefficients of the next step: the form's, or at start-up those of a form as long as the history.
