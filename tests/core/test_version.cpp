@@ -18,7 +18,11 @@ TEST(version, abi_check_refuses_the_other_library)
     EXPECT_EQ(INS_ABI_CHECK(), INS_OK);
     EXPECT_EQ(ins_abi_check(INS_VERSION, sizeof(ins_real) == sizeof(float) ? sizeof(double) : sizeof(float)),
               INS_E_ABI);
-    EXPECT_EQ(ins_abi_check(INS_VERSION + 1, sizeof(ins_real)), INS_E_ABI);
+    for (const long minor : {-100L, 100L, 10000L})
+    {
+        EXPECT_EQ(ins_abi_check(INS_VERSION + minor, sizeof(ins_real)), INS_E_ABI) << minor;
+    }
+    EXPECT_EQ(ins_abi_check(INS_VERSION / 100 * 100 + 99, sizeof(ins_real)), INS_OK) << "another patch";
 }
 
 TEST(version, every_status_has_a_text)

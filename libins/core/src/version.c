@@ -8,9 +8,10 @@ long ins_version(void)
     return INS_VERSION;
 }
 
+// The last two decimals are the patch: it changes no struct, and neither does it change the soname.
 ins_status_t ins_abi_check(long version, unsigned real_size)
 {
-    return version == INS_VERSION && real_size == sizeof(ins_real) ? INS_OK : INS_E_ABI;
+    return version / 100 == INS_VERSION / 100 && real_size == sizeof(ins_real) ? INS_OK : INS_E_ABI;
 }
 
 #define STATUS_CASE(name, value, text)                                                                                 \

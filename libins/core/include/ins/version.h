@@ -1,5 +1,5 @@
 /// \file   ins/version.h
-/// \brief  Version of the library, and the check that header and binary belong together (double or float, same version).
+/// \brief  Version of the library, and the check that header and binary belong together (double or float, version).
 /// SPDX-License-Identifier: MIT
 #ifndef INS_VERSION_H_INCLUDED
 #define INS_VERSION_H_INCLUDED
@@ -16,7 +16,8 @@ extern "C" {
 
 /// Version of the binary, as INS_VERSION.
 INS_API long ins_version(void);
-/// \return INS_OK, or INS_E_ABI: the program was compiled with the headers of another version, or for another ins_real.
+/// \return INS_OK, or INS_E_ABI: the program was compiled with the headers of another major or minor version, or for another
+/// ins_real. Patch releases go together.
 INS_API ins_status_t ins_abi_check(long version, unsigned real_size);
 /// Call once at start: INS_ABI_CHECK() == INS_OK.
 #define INS_ABI_CHECK() ins_abi_check(INS_VERSION, (unsigned)sizeof(ins_real))
