@@ -94,7 +94,8 @@ def main() -> int:
     long = subprocess.run(["ctest", "--preset", "release", "--output-on-failure"], cwd=ROOT, env=environment)
     pytest = [sys.executable, "-m", "pytest", "-q", "tests/system/test_link.py"]
     system = subprocess.run(pytest, cwd=ROOT, env=environment)
-    return 0 if kept and long.returncode == 0 and system.returncode == 0 else 1
+    mutation = subprocess.run([sys.executable, ROOT / "bench/mutation.py"])
+    return 0 if kept and all(part.returncode == 0 for part in (long, system, mutation)) else 1
 
 
 if __name__ == "__main__":
