@@ -15,6 +15,7 @@ WALL_LIMIT_S = 120
 
 STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wdouble-promotion", "-Wshadow", "-Werror"]
 REALS = {"double": [], "float": ["-DINS_REAL_FLOAT"]}
+LIBRARY = {"double": "libins", "float": "libinsf"}
 
 
 def run(*command: object, code: int = 0, stdin: str = "", cwd: Path | None = None, **env: str) -> str:
@@ -32,7 +33,19 @@ def configure(source: Path, build: Path, *options: str, code: int = 0) -> str:
     cache = ["-DCMAKE_C_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     # As on a user's machine: a C compiler, and none for C++.
     return run(
-        *("cmake", "-G", "Ninja", "-S", source, "-B", build, "-DCMAKE_BUILD_TYPE=Release", *cache, *options),
+        *(
+            "cmake",
+            "-G",
+            "Ninja",
+            "-S",
+            source,
+            "-B",
+            build,
+            "-DCMAKE_BUILD_TYPE=Release",
+            "-DCMAKE_C_FLAGS_RELEASE=-O1",
+            *cache,
+            *options,
+        ),
         code=code,
         CXX="/nonexistent",
     )

@@ -4,10 +4,9 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import EXAMPLES, REALS, ROOT, STRICT, Prefix, configure, run
+from conftest import EXAMPLES, LIBRARY, REALS, ROOT, STRICT, Prefix, configure, run
 
 KINDS = ("static", "shared")
-LIBRARY = {"double": "libins", "float": "libinsf"}
 TARGET = {"double": "libins::core", "float": "libins::coref"}
 # Level at 25 deg N for 1 s: gravity of 9.79 m/s^2, and gyros that do not see the Earth turn.
 AT_REST = "0 0 0 0 0 -0.0979\n" * 100

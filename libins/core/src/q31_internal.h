@@ -22,18 +22,19 @@ static inline int64_t q31_wide_split(int32_t a, int32_t b)
     return (int64_t)(((uint64_t)(uint32_t)high << 32) | ((uint32_t)upper << 16) | (low & 0xFFFFu));
 }
 
-/// sum + a b
 #if defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__)
-static int64_t q31_mac(int64_t sum, int32_t a, int32_t b)
-{
-    return sum + q31_wide_split(a, b);
-}
+#define Q31_SPLIT  1
+#define Q31_INLINE // one copy: the split product is long
 #else
-static inline int64_t q31_mac(int64_t sum, int32_t a, int32_t b)
-{
-    return sum + (int64_t)a * b;
-}
+#define Q31_SPLIT  0
+#define Q31_INLINE inline
 #endif
+
+/// sum + a b
+static Q31_INLINE int64_t q31_mac(int64_t sum, int32_t a, int32_t b)
+{
+    return sum + (Q31_SPLIT ? q31_wide_split(a, b) : (int64_t)a * b);
+}
 
 /// x / 2^32, rounded.
 static inline int32_t q31_high(int64_t x)
