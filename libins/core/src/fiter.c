@@ -41,7 +41,7 @@ static const struct
 
 /// q(1) of q' = q w / 2, q(0) = 1. A pass of Picard's iteration over a series in s makes one more coefficient final; in the limit
 /// (k + 1) q_(k+1) = 1/2 sum q_(k-j) w_j, which is written down without iterating. \return 0 if the series has not ended.
-static int picard(const ins_real w[SAMPLES][3], int n, ins_real q[4])
+static int picard(ins_real w[SAMPLES][3], int n, ins_real q[4])
 {
     ins_real last[SAMPLES][4] = {{1, 0, 0, 0}}; // q_k at k modulo n
     ins_real sum[4] = {1, 0, 0, 0};
@@ -75,7 +75,7 @@ static int picard(const ins_real w[SAMPLES][3], int n, ins_real q[4])
 }
 
 /// theta[0] is the newest.
-static ins_status_t fitted_turn(int form, const ins_real theta[SAMPLES][3], ins_real dq[4])
+static ins_status_t fitted_turn(int form, ins_real theta[SAMPLES][3], ins_real dq[4])
 {
     const int n = fits[form].samples;
     const ins_real unit = 1 / (ins_real)fits[form].denominator;
@@ -93,7 +93,7 @@ static ins_status_t fitted_turn(int form, const ins_real theta[SAMPLES][3], ins_
         }
     }
     ins_real q[4];
-    if (!picard((const ins_real(*)[3])w, n, q))
+    if (!picard(w, n, q))
     {
         return INS_E_RANGE;
     }
@@ -117,7 +117,7 @@ ins_status_t ins_fiter_turn(int form, const ins_real* theta_b, ins_real dq[4])
     {
         ins_vec_copy(theta_b + 3 * (n - 1 - i), newest_first[i]);
     }
-    return n == 0 ? INS_E_RANGE : fitted_turn(form, (const ins_real(*)[3])newest_first, dq);
+    return n == 0 ? INS_E_RANGE : fitted_turn(form, newest_first, dq);
 }
 
 static int reads_rates(int form)
@@ -155,7 +155,7 @@ ins_status_t ins_fiter_step(ins_fiter_t* self, const ins_real sample_b[3])
                      : rates && held > 0 ? INS_FITER_RATE2 + held - 1
                                          : INS_FITER_HIST0 + held;
     ins_real dq[4];
-    if (fitted_turn(form, (const ins_real(*)[3])theta, dq) != INS_OK)
+    if (fitted_turn(form, theta, dq) != INS_OK)
     {
         return INS_E_RANGE;
     }

@@ -5,15 +5,15 @@
 #include "ins/ins_math.h"
 #include "ins/vec.h"
 
-#define HALF_PI    INS_C(1.57079632679489662)
-#define ITERATIONS 2
+#define QUARTER_TURN INS_C(1.57079632679489662)
+#define ITERATIONS   2
 
 const ins_ellipsoid_t ins_wgs84 = {6378137, INS_C(3.35281066474748072e-3), INS_C(6.69437999014131699e-3)};
 const ins_ellipsoid_t ins_grs80 = {6378137, INS_C(3.35281068118231894e-3), INS_C(6.69438002290078763e-3)};
 
 static int is_llh(const ins_real llh[3])
 {
-    return ins_vec_is_finite(llh) && ins_fabs(llh[0]) <= HALF_PI && ins_fabs(llh[1]) <= 4 * HALF_PI;
+    return ins_vec_is_finite(llh) && ins_fabs(llh[0]) <= QUARTER_TURN && ins_fabs(llh[1]) <= 4 * QUARTER_TURN;
 }
 
 ins_status_t ins_geodesy_to_ecef(const ins_ellipsoid_t* ellipsoid, const ins_real llh[3], ins_real xyz_e[3])

@@ -53,7 +53,7 @@ ins_status_t ins_hs_board_offer(INS_HS_MEM ins_hs_board_t* self, const INS_HS_ME
             octet = (ins_octet_t)((octet & 0x0Fu) | ((seq & 0x0Fu) << 4));
         }
         self->block[i] = octet;
-        self->sum = (self->sum + octet) & 0xFFu;
+        self->sum = (self->sum + (unsigned)octet) & 0xFFu;
     }
     self->tries = 0;
     self->state = BOARD_REQUEST;
@@ -88,7 +88,7 @@ int16_t ins_hs_board_tx(INS_HS_MEM ins_hs_board_t* self, uint16_t now)
         self->state = BOARD_WAIT_ACK;
     }
     self->since = now;
-    return octet;
+    return (int16_t)octet;
 }
 
 /// Another try from `state` on, or the block is dropped.
@@ -109,6 +109,7 @@ static void board_retry(INS_HS_MEM ins_hs_board_t* self, uint_least8_t state)
 void ins_hs_board_rx(INS_HS_MEM ins_hs_board_t* self, ins_octet_t octet, uint16_t now)
 {
     (void)now;
+    octet &= 0xFFu;
     if (self->state == BOARD_WAIT_READY && octet == INS_HS_READY)
     {
         self->next = 0;

@@ -58,7 +58,7 @@ static int take_block(ins_hs_host_t* self)
         seq = (uint_least8_t)((self->block[0] & 0xF0u) | (self->block[2] >> 4));
         self->block[0] &= 0x0Fu;
         self->block[2] &= 0x0Fu;
-        step = (uint_least8_t)((seq - self->seq) & 0xFFu);
+        step = (uint_least8_t)((unsigned)(seq - self->seq) & 0xFFu);
         if (self->have_seq && step == 0)
         {
             self->duplicates++;
@@ -97,7 +97,7 @@ int ins_hs_host_rx(ins_hs_host_t* self, ins_octet_t octet, uint16_t now, int16_t
     if (self->count < self->cfg.block_len)
     {
         self->block[self->count] = octet;
-        self->sum = (uint_least8_t)((self->sum + octet) & 0xFFu);
+        self->sum = (uint_least8_t)((self->sum + (unsigned)octet) & 0xFFu);
         self->count++;
         return INS_HS_NOTHING;
     }
@@ -134,6 +134,6 @@ void ins_hs_block_codes(const ins_octet_t* block, uint16_t* codes)
     uint_least8_t i;
     for (i = 0; i < 3; i++)
     {
-        codes[i] = (uint16_t)(((block[2 * i] & 0x0Fu) << 8) | block[2 * i + 1]);
+        codes[i] = (uint16_t)(((block[2 * i] & 0x0Fu) << 8) | (block[2 * i + 1] & 0xFFu));
     }
 }

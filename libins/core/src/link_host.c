@@ -35,7 +35,7 @@ static void expect_frame(ins_link_host_t* self)
 static int take_frame(ins_link_host_t* self)
 {
     ins_hs_host_t* const hs = &self->hs;
-    const uint_least8_t step = (uint_least8_t)((hs->sum - hs->seq) & 0xFFu);
+    const uint_least8_t step = (uint_least8_t)((unsigned)(hs->sum - hs->seq) & 0xFFu);
     if (hs->have_seq && step == 0)
     {
         hs->duplicates++;

@@ -26,9 +26,9 @@ void ins_nmea_init(ins_nmea_t* self)
 typedef struct cursor_t
 {
     const ins_octet_t* text;
-    unsigned at, end;   ///< the field under the cursor is [at, end)
-    unsigned length;    ///< of the body
-    uint_least8_t fine; ///< nothing unreadable so far
+    unsigned at, end; ///< the field under the cursor is [at, end)
+    unsigned length;  ///< of the body
+    int fine;         ///< 1: nothing unreadable so far
 } cursor_t;
 
 static void find_end(cursor_t* c)
@@ -93,7 +93,7 @@ static int32_t decimals(cursor_t* c, int32_t whole, unsigned kept)
     }
     for (; c->at < c->end; c->at++)
     {
-        c->fine &= (uint_least8_t)is_digit(c->text[c->at]);
+        c->fine &= is_digit(c->text[c->at]);
         if (kept > 0 && c->fine)
         {
             whole = 10 * whole + (int32_t)(c->text[c->at] - '0');

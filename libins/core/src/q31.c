@@ -25,7 +25,7 @@ static int out_of_range(const int32_t v[3])
 }
 
 /// out = the coning term, Q31 [rad].
-static void coning(const int32_t prev[2][3], const int32_t theta[3], int32_t out[3])
+static void coning(int32_t prev[2][3], const int32_t theta[3], int32_t out[3])
 {
     int32_t w[3]; // (7 theta_1 - theta_2) / 8; the bits that the shifts drop weigh |theta| 2^-31
     for (int i = 0; i < 3; i++)
@@ -41,7 +41,7 @@ static void coning(const int32_t prev[2][3], const int32_t theta[3], int32_t out
     }
 }
 
-int ins_q31_turn(const int32_t prev[2][3], const int32_t theta[3], int32_t d[4])
+int ins_q31_turn(int32_t prev[2][3], const int32_t theta[3], int32_t d[4])
 {
     if (out_of_range(theta))
     {
@@ -110,7 +110,7 @@ ins_status_t ins_q31_remember(int32_t prev[2][3], uint_least8_t* count, const in
 ins_status_t ins_q31_step(ins_q31_t* self, const int32_t dtheta_b[3])
 {
     int32_t d[4];
-    if (!ins_q31_turn((const int32_t(*)[3])self->prev, dtheta_b, d))
+    if (!ins_q31_turn(self->prev, dtheta_b, d))
     {
         return INS_E_RANGE;
     }

@@ -64,7 +64,7 @@ static inline int32_t q31_high(int64_t x)
                             : -1]
 
 /// d = {cos(|phi|/2) - 1, phi sin(|phi|/2) / |phi|} in Q33. \return 0 if |theta| or |phi| is above 0.5.
-int ins_q31_turn(const int32_t prev[2][3], const int32_t theta[3], int32_t d[4]);
+int ins_q31_turn(int32_t prev[2][3], const int32_t theta[3], int32_t d[4]);
 /// out = q (d + (1 - |q|^2) / 2) in Q63, q in Q30: what to add to q, the correction of its norm included.
 void ins_q31_change(const int32_t q[4], const int32_t d[4], int64_t out[4]);
 ins_status_t ins_q31_remember(int32_t prev[2][3], uint_least8_t* count, const int32_t theta[3]);

@@ -26,7 +26,7 @@ ins_status_t ins_q31w_init(ins_q31w_t* self, const int32_t q_nb[4])
 ins_status_t ins_q31w_step(ins_q31w_t* self, const int32_t dtheta_b[3])
 {
     int32_t d[4];
-    if (!ins_q31_turn((const int32_t(*)[3])self->prev, dtheta_b, d))
+    if (!ins_q31_turn(self->prev, dtheta_b, d))
     {
         return INS_E_RANGE;
     }

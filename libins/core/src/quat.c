@@ -10,7 +10,7 @@
 #define NORM2_MAX INS_C(1e30)
 #define DCM_TOL   INS_C(1e-3)
 #define POLE_TOL  (4 * INS_EPSILON) ///< of sqrt(2): here one of yaw + roll, yaw - roll is rounding noise
-#define PI        INS_C(3.14159265358979324)
+#define HALF_TURN INS_C(3.14159265358979324)
 
 static void scale(ins_real q[4], ins_real k)
 {
@@ -70,7 +70,7 @@ void ins_quat_from_euler(const ins_real euler[3], ins_real q_nb[4])
 
 static ins_real wrap(ins_real angle)
 {
-    return angle > PI ? angle - 2 * PI : angle < -PI ? angle + 2 * PI : angle;
+    return angle > HALF_TURN ? angle - 2 * HALF_TURN : angle < -HALF_TURN ? angle + 2 * HALF_TURN : angle;
 }
 
 void ins_quat_to_euler(const ins_real q_nb[4], ins_real euler[3])

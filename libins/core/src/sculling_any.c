@@ -54,11 +54,13 @@ ins_status_t ins_sculling_init(ins_sculling_t* self, int form, const ins_real q_
 
 ins_status_t ins_sculling_step_any(ins_sculling_t* self, const ins_increment_t* increment, ins_real dv_b[3])
 {
-    const ins_increment_t x[INS_CONING_SAMPLES_MAX] = {*increment, self->prev[0], self->prev[1], self->prev[2]};
+    ins_increment_t x[INS_CONING_SAMPLES_MAX];
     ins_attitude_t attitude = {
         {self->q_nb[0], self->q_nb[1], self->q_nb[2], self->q_nb[3]}, {{0}}, self->form, self->count};
+    x[0] = *increment;
     for (int i = 0; i < 3; i++)
     {
+        x[i + 1] = self->prev[i];
         ins_vec_copy(self->prev[i].theta_b, attitude.prev[i]);
     }
     ins_real dv[3];

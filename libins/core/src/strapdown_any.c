@@ -6,9 +6,10 @@
 
 ins_status_t ins_strapdown_step_any(ins_strapdown_t* self, const ins_increment_t* increment)
 {
-    ins_sculling_t next = self->sculling;
+    ins_sculling_t next;
     ins_real dv[3];
     ins_real z[3];
+    next = self->sculling;
     const ins_status_t status = ins_sculling_step_any(&next, increment, dv);
     if (status < INS_OK || strapdown_advance(self, dv, z) != INS_OK)
     {

@@ -6,8 +6,8 @@
 #include "ins/vec.h"
 #include "strapdown_internal.h"
 
-#define PI         INS_C(3.14159265358979324)
-#define TURN_REST  INS_TOL(2.4492935982947064e-16, -1.7484556e-7f) ///< a turn less 2 PI as rounded
+#define HALF_TURN  INS_C(3.14159265358979324)
+#define TURN_REST  INS_TOL(2.4492935982947064e-16, -1.7484556e-7f) ///< a turn less 2 HALF_TURN as rounded
 #define OFFSET_MAX INS_C(1e-3)                                     ///< [rad], that ins_strapdown_init takes
 #define HEIGHT_MAX INS_C(1e6)                                      ///< [m]
 
@@ -27,8 +27,8 @@ ins_status_t ins_strapdown_anchor(ins_strapdown_t* self)
     {
         two_sum(p->anchor[i], p->offset[i], &p->anchor[i], &p->offset[i]);
     }
-    const ins_real turns = p->anchor[1] > PI ? 1 : p->anchor[1] < -PI ? -1 : 0;
-    p->anchor[1] -= turns * (2 * PI); // exact: the two are within a factor of two
+    const ins_real turns = p->anchor[1] > HALF_TURN ? 1 : p->anchor[1] < -HALF_TURN ? -1 : 0;
+    p->anchor[1] -= turns * (2 * HALF_TURN); // exact: the two are within a factor of two
     p->offset[1] -= turns * TURN_REST;
     // {cos, -, -, sin} of the latitude as a quaternion of twice the angle: no libm.
     const ins_real twice[3] = {0, 0, 2 * p->anchor[0]};
@@ -45,14 +45,14 @@ ins_status_t ins_strapdown_init(ins_strapdown_t* self, int form, ins_real period
     const ins_real* a = position->anchor;
     const ins_real* o = position->offset;
     if (!(period_s > 0 && period_s <= INS_STRAPDOWN_PERIOD_MAX) ||
-        !(ins_fabs(a[0]) <= PI / 2 && ins_fabs(a[1]) <= 2 * PI && ins_fabs(a[2]) <= HEIGHT_MAX) ||
+        !(ins_fabs(a[0]) <= HALF_TURN / 2 && ins_fabs(a[1]) <= 2 * HALF_TURN && ins_fabs(a[2]) <= HEIGHT_MAX) ||
         !(ins_fabs(o[0]) <= OFFSET_MAX && ins_fabs(o[1]) <= OFFSET_MAX && ins_fabs(o[2]) <= HEIGHT_MAX) ||
         !(ins_vec_dot(v_n, v_n) <= INS_STRAPDOWN_SPEED_MAX * INS_STRAPDOWN_SPEED_MAX))
     {
         return INS_E_RANGE;
     }
-    ins_strapdown_t start = {
-        .v_n = {v_n[0], v_n[1], v_n[2]}, .position = *position, .half_period = INS_C(0.5) * period_s};
+    ins_strapdown_t start = {.v_n = {v_n[0], v_n[1], v_n[2]}, .half_period = INS_C(0.5) * period_s};
+    start.position = *position;
     const ins_status_t status = ins_sculling_init(&start.sculling, form, q_nb);
     (void)ins_strapdown_anchor(&start);
     if (status != INS_OK || !(start.cos_lat >= INS_STRAPDOWN_COS_MIN))
@@ -95,8 +95,8 @@ void ins_position_difference(const ins_position_t* a, const ins_position_t* b, i
 {
     // Across 180 degrees the turn is taken off first: b's anchor less a turn is exact, its difference to a's is not.
     const ins_real across = b->anchor[1] - a->anchor[1];
-    const ins_real turns = across > PI ? 1 : across < -PI ? -1 : 0;
-    const ins_real lon = (b->anchor[1] - turns * (2 * PI)) - a->anchor[1];
+    const ins_real turns = across > HALF_TURN ? 1 : across < -HALF_TURN ? -1 : 0;
+    const ins_real lon = (b->anchor[1] - turns * (2 * HALF_TURN)) - a->anchor[1];
     const ins_real d[3] = {(b->anchor[0] - a->anchor[0]) + (b->offset[0] - a->offset[0]),
                            lon + (b->offset[1] - a->offset[1] - turns * TURN_REST),
                            (b->anchor[2] - a->anchor[2]) + (b->offset[2] - a->offset[2])};
