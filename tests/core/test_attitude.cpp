@@ -1,7 +1,7 @@
 /// \file   test_attitude.cpp
 /// \brief  Attitude from increments and from rates: accuracy against exact motions, orders, start-up, edges.
 /// SPDX-License-Identifier: MIT
-#include "core_test.h"
+#include "attitude_runs.h"
 #include <limits>
 #include <random>
 using namespace core_test;
@@ -15,50 +15,9 @@ const double ROUNDING_RAD = INS_TOL(1e-12, 3e-6); // over 300 steps
 const long NORM_STEPS = 60000;                    // 10 minutes at 100 Hz
 const double TOL_NORM = INS_TOL(1e-15, 4e-7);
 
-/// The motions of the accuracy table. D's twin in the reference files has offsets, hence other last digits.
-const Motion MOTION_A = {{0, 0.5, 0.25, 0}, {0, 0.3, 0.2, 0}, {0, 0, 0, 0}};
-const Motion MOTION_B = {{0, 1.0, 0.2, 0}, {0, 0.5, 0.3, 0}, {0, 0.3, 0.25, 0}};
-const Motion MOTION_D = {{0, 30 * DEG, 1, 0}, {0, 20 * DEG, 1, PI / 2}, {0, 10 * DEG, 1, 0.3}};
-
-Track run(const Motion& m, const std::string& name, double period, size_t steps)
-{
-    const auto truth = [&](long k) { return m.attitude(static_cast<double>(k) * period); };
-    const std::string rates_prefix = "AM";
-    if (name.rfind(rates_prefix, 0) == 0)
-    {
-        const long lead = 8;
-        std::vector<Vec> rates;
-        for (long k = -lead; k <= static_cast<long>(steps); k++)
-        {
-            rates.push_back(m.rate(static_cast<double>(k) * period));
-        }
-        return run_rates(static_cast<unsigned>(name[2] - '0'), period, truth(0), rates, lead);
-    }
-    std::vector<Vec> pre;
-    std::vector<Vec> incs;
-    for (long k = -3; k < static_cast<long>(steps); k++)
-    {
-        const double t = static_cast<double>(k) * period;
-        (k < 0 ? pre : incs).push_back(m.increment(t, t + period));
-    }
-    if (name == "reuse_fit")
-    {
-        return run_reuse(INS_CONING_BLOCK3_FIT, {truth(0), truth(1), truth(2)}, incs);
-    }
-    for (const Form& f : forms())
-    {
-        if (name == f.name)
-        {
-            return run_form(f.form, truth(0), pre, incs);
-        }
-    }
-    ADD_FAILURE() << "no form " << name;
-    return {};
-}
-
 double error_of(const Motion& m, const std::string& name, double period, size_t steps)
 {
-    return max_error(run(m, name, period, steps),
+    return max_error(run_named(m, name, period, steps),
                      [&](size_t k) { return m.attitude(static_cast<double>(k) * period); });
 }
 

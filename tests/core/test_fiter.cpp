@@ -1,7 +1,7 @@
 /// \file   test_fiter.cpp
 /// \brief  Functional iteration and rate fit, against the reference files, the published accuracy, and a fine Runge-Kutta integration.
 /// SPDX-License-Identifier: MIT
-#include "core_test.h"
+#include "attitude_runs.h"
 #include <random>
 using namespace core_test;
 
@@ -16,10 +16,6 @@ const double TOL_MOTION_RAD = INS_TOL(1e-12, 8e-6); // rad, over 300 steps
 const double TOL_ONE_STEP = INS_TOL(2e-15, 1e-6);   // component
 const ins_real LEVEL[4] = {1, 0, 0, 0};
 
-const Motion MOTION_A = {{0, 0.5, 0.25, 0}, {0, 0.3, 0.2, 0}, {0, 0, 0, 0}};
-const Motion MOTION_B = {{0, 1.0, 0.2, 0}, {0, 0.5, 0.3, 0}, {0, 0.3, 0.25, 0}};
-const Motion MOTION_D = {{0, 30 * DEG, 1, 0}, {0, 20 * DEG, 1, PI / 2}, {0, 10 * DEG, 1, 0.3}};
-
 const struct
 {
     const char* name; ///< as in the reference files
@@ -27,79 +23,9 @@ const struct
 } FORMS[] = {{"fhist2", INS_FITER_HIST2},   {"fhist3", INS_FITER_HIST3},   {"fhist4", INS_FITER_HIST4},
              {"ratefit3", INS_FITER_RATE3}, {"ratefit4", INS_FITER_RATE4}, {"ratefit5", INS_FITER_RATE5}};
 
-bool is_rate(int form)
-{
-    return form >= INS_FITER_RATE2 && form <= INS_FITER_RATE5;
-}
-
-/// The last `lead` + 1 samples of `before` belong to the time up to the start (a rate sample at the start itself included).
-Track run_fiter(int form, double period, const Quat& start, const std::vector<Vec>& before,
-                const std::vector<Vec>& samples)
-{
-    Track track = {{0, start}};
-    const auto q0 = real(start);
-    ins_fiter_t f;
-    EXPECT_EQ(ins_fiter_init(&f, form, static_cast<ins_real>(period), q0.data()), INS_OK);
-    for (const Vec& s : before)
-    {
-        EXPECT_GE(ins_fiter_step(&f, real(s).data()), INS_OK);
-    }
-    std::copy(q0.begin(), q0.end(), f.q_nb);
-    for (size_t k = 0; k < samples.size(); k++)
-    {
-        EXPECT_EQ(ins_fiter_step(&f, real(samples[k]).data()), INS_OK);
-        track.push_back({k + 1, quat(f.q_nb)});
-    }
-    return track;
-}
-
-Track run_block3(const Quat& start, const std::vector<Vec>& increments)
-{
-    Track track = {{0, start}};
-    auto q = real(start);
-    for (size_t k = 0; k + 3 <= increments.size(); k += 3)
-    {
-        std::vector<ins_real> theta;
-        for (size_t i = 0; i < 3; i++)
-        {
-            const auto x = real(increments[k + i]);
-            theta.insert(theta.end(), x.begin(), x.end());
-        }
-        ins_real dq[4];
-        EXPECT_EQ(ins_fiter_turn(INS_FITER_BLOCK3, theta.data(), dq), INS_OK);
-        ins_quat_mul(q.data(), dq, q.data());
-        ins_quat_normalise_approx(q.data());
-        track.push_back({k + 3, quat(q.data())});
-    }
-    return track;
-}
-
-Track run_motion(const Motion& m, int form, double period, size_t steps)
-{
-    std::vector<Vec> before;
-    std::vector<Vec> samples;
-    for (long k = -4; k <= static_cast<long>(steps); k++)
-    {
-        const double t = static_cast<double>(k) * period;
-        if (is_rate(form))
-        {
-            (k <= 0 ? before : samples).push_back(m.rate(t));
-        }
-        else if (k > -4)
-        {
-            (k <= 0 ? before : samples).push_back(m.increment(t - period, t));
-        }
-    }
-    if (!is_rate(form))
-    {
-        before.insert(before.begin(), m.increment(-5 * period, -4 * period));
-    }
-    return run_fiter(form, period, m.attitude(0), before, samples);
-}
-
 double error_of(const Motion& m, int form, double period, size_t steps)
 {
-    return max_error(run_motion(m, form, period, steps),
+    return max_error(run_fiter_motion(m, form, period, steps),
                      [&](size_t k) { return m.attitude(static_cast<double>(k) * period); });
 }
 

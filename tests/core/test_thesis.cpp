@@ -1,7 +1,7 @@
 /// \file   test_thesis.cpp
 /// \brief  The thesis's update, RK4 with norm feedback and ZXZ matrix, against the reference files and their own promises.
 /// SPDX-License-Identifier: MIT
-#include "core_test.h"
+#include "attitude_runs.h"
 using namespace core_test;
 
 namespace
@@ -27,42 +27,6 @@ void take_quat(Worst& worst, const Quat& got, const Quat& want, const std::strin
     {
         worst.take(dot < 0 ? -got[i] : got[i], want[i], 1, place);
     }
-}
-
-Track run_thesis(const Quat& start, const Vec& before, const std::vector<Vec>& increments)
-{
-    Track track = {{0, start}};
-    const auto q0 = real(start);
-    ins_thesis_t t;
-    EXPECT_EQ(ins_thesis_init(&t, q0.data()), INS_OK);
-    EXPECT_EQ(ins_thesis_step(&t, real(before).data()), INS_S_START);
-    std::copy(q0.begin(), q0.end(), t.q_nb);
-    for (size_t k = 0; k < increments.size(); k++)
-    {
-        EXPECT_EQ(ins_thesis_step(&t, real(increments[k]).data()), INS_OK);
-        track.push_back({k + 1, quat(t.q_nb)});
-    }
-    return track;
-}
-
-/// rates[2 i], [2 i + 1], [2 i + 2] are those of step i.
-Track run_rk4(double feedback, double step_s, bool normalise, const Quat& start, const std::vector<Vec>& rates)
-{
-    Track track = {{0, start}};
-    ins_thesis_rk4_t r;
-    EXPECT_EQ(ins_thesis_rk4_init(&r, static_cast<ins_real>(feedback), static_cast<ins_real>(step_s),
-                                  real(start).data(), real(rates[0]).data()),
-              INS_OK);
-    for (size_t k = 2; k < rates.size(); k += 2)
-    {
-        EXPECT_EQ(ins_thesis_rk4_step(&r, real(rates[k - 1]).data(), real(rates[k]).data()), INS_OK);
-        if (normalise)
-        {
-            EXPECT_EQ(ins_quat_normalise(r.q_nb), INS_OK);
-        }
-        track.push_back({k, quat(r.q_nb)});
-    }
-    return track;
 }
 
 double quat_norm(const ins_real q[4])
