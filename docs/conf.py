@@ -15,7 +15,6 @@ breathe_default_project = "libins"
 breathe_domain_by_extension = {"h": "c"}
 breathe_default_members = ("members", "undoc-members")
 myst_heading_anchors = 3
-exclude_patterns = ["figures"]
 nitpicky = True
 # Types of the C library, and structs without a name.
 nitpick_ignore_regex = [("c:identifier", r"u?int(_least)?(8|16|32|64)_t|size_t|bool|.*\.@\d+")]

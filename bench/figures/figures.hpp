@@ -7,7 +7,7 @@
 
 namespace figures
 {
-/// One line of output: figure,curve,x,y.
+/// One line of output.
 void point(const std::string& figure, const std::string& curve, double x, double y);
 
 void coning();

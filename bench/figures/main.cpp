@@ -1,5 +1,5 @@
 /// \file   main.cpp
-/// \brief  Prints every point of every figure that this number type has, as figure,curve,x,y. Exit code 1 when a run was refused.
+/// \brief  Prints every point of every figure that this number type has, as figure, curve, x, y between tabs. Exit code 1 when a run was refused.
 /// SPDX-License-Identifier: MIT
 #include "figures.hpp"
 #include <cstdio>
@@ -7,7 +7,7 @@
 
 void figures::point(const std::string& figure, const std::string& curve, double x, double y)
 {
-    std::printf("%s,%s,%.6g,%.6e\n", figure.c_str(), curve.c_str(), x, y);
+    std::printf("%s\t%s\t%.6g\t%.6e\n", figure.c_str(), curve.c_str(), x, y);
 }
 
 int main()

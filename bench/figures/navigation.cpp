@@ -56,7 +56,7 @@ void sculling_drift()
         {"HIST2_FIT", INS_CONING_HIST2_FIT},     {"HIST2_OPT", INS_CONING_HIST2_OPT},
         {"HIST3_OPT", INS_CONING_HIST3_OPT},     {"BLOCK3_OPT", INS_CONING_BLOCK3_OPT},
         {"BLOCK4_OPT", INS_CONING_BLOCK4_OPT}};
-    for (const int n : {12, 16, 24, 36, 48, 72, 96, 144, 192})
+    for (const int n : {12, 24, 36, 48, 72, 96, 144, 192})
     {
         const double mu = 2 * PI / n, omega = 2 * PI * hz;
         for (const auto& f : forms)
