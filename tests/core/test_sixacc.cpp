@@ -259,7 +259,7 @@ TEST(sixacc, refuses)
     EXPECT_EQ(ins_linfit_add(&fit, odd, readings), INS_E_RANGE);
     readings[5] = NOT_A_NUMBER;
     EXPECT_EQ(ins_linfit_add(&fit, fine, readings), INS_E_RANGE);
-    EXPECT_EQ(fit.R[0][0], 0);
+    EXPECT_EQ(fit.R[0], 0);
     EXPECT_EQ(ins_linfit_solve(&fit, 6, map), INS_E_RANGE);
     EXPECT_EQ(ins_linfit_solve(&fit, 0, map), INS_E_STATE);
 }

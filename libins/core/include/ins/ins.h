@@ -3,6 +3,7 @@
 /// SPDX-License-Identifier: MIT
 #ifndef INS_INS_H_INCLUDED
 #define INS_INS_H_INCLUDED
+#include "ins/accelfit.h"
 #include "ins/align.h"
 #include "ins/attitude.h"
 #include "ins/batch.h"

@@ -62,8 +62,8 @@ INS_API ins_status_t ins_sixacc_step(ins_sixacc_t* self, const ins_real* reading
 typedef struct ins_linfit_t
 {
     uint_least8_t count;                ///< accelerometers
-    ins_real R[4][4];                   ///< upper triangle
-    ins_real z[INS_SIXACC_MAX][4];      ///< right-hand sides
+    ins_real R[4 * 4];                  ///< upper triangle
+    ins_real z[INS_SIXACC_MAX * 4];     ///< right-hand sides
     ins_real residual2[INS_SIXACC_MAX]; ///< sum of squared residuals
 } ins_linfit_t;
 
