@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from conftest import LIBRARY, REALS, ROOT, STRICT, Prefix, run
+from packaging_kit import LIBRARY, REALS, ROOT, STRICT, Prefix, run
 
 ARM = ("arm-none-eabi-gcc", "--specs=picolibc.specs", "-mthumb")
 COMPILERS = {
@@ -25,7 +25,10 @@ def amalgamation(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_it_is_the_same_every_time_and_alone(amalgamation: Path, tmp_path: Path) -> None:
     run("python3", ROOT / "tools/amalgamate.py", tmp_path, cwd=tmp_path, PYTHONHASHSEED="7", LC_ALL="C")
+    run("cmake", "--build", ROOT / "build/release", "--target", "ins_amalgamation")
     for name in ("ins_all.h", "ins_all.c"):
+        by_target = ROOT / "build/release/amalgamation" / name
+        assert by_target.read_bytes() == (tmp_path / name).read_bytes()
         text = (amalgamation / name).read_text(encoding="utf-8")
         assert text == (tmp_path / name).read_text(encoding="utf-8")
         assert "Permission is hereby granted" in text

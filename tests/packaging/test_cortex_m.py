@@ -6,7 +6,7 @@ import struct
 from pathlib import Path
 
 import pytest
-from conftest import CORE, EXAMPLES, run
+from packaging_kit import CORE, EXAMPLES, run
 
 FIRMWARE = {"attitude_m0.elf": "microbit", "strapdown_m4f.elf": "mps2-an386"}
 FLASH_MAX = {"attitude_m0.elf": 18_900, "strapdown_m4f.elf": 27_900}  # octets, 2 % above what was measured

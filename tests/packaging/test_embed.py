@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from conftest import CORE, EXAMPLES, ROOT, configure, run
+from packaging_kit import CORE, EXAMPLES, ROOT, configure, run
 
 # The consumer's own file would not pass libins' warnings (an unused parameter, a missing prototype, GNU C).
 SLOPPY = """#include "ins/ins.h"

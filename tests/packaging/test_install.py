@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import EXAMPLES, LIBRARY, REALS, ROOT, STRICT, Prefix, configure, run
+from packaging_kit import EXAMPLES, LIBRARY, REALS, ROOT, STRICT, Prefix, configure, run
 
 KINDS = ("static", "shared")
 TARGET = {"double": "libins::core", "float": "libins::coref"}

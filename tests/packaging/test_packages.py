@@ -12,7 +12,7 @@ from pathlib import Path
 import kconfiglib
 import pytest
 import yaml
-from conftest import CORE, ROOT, run
+from packaging_kit import CORE, ROOT, run
 from platformio.package.manifest.parser import ManifestParserFactory
 from platformio.package.manifest.schema import ManifestSchema
 
