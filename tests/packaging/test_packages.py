@@ -81,6 +81,19 @@ macro(zephyr_compile_definitions_ifdef feature)
 endmacro()
 add_subdirectory({package} libins)
 """
+SKETCH = """#include <ins_all.h>
+static ins_attitude_t attitude;
+static const ins_real level[4] = {1, 0, 0, 0};
+int main()
+{
+    const ins_real dtheta_b[3] = {0.01f, 0, 0};
+    ins_attitude_init(&attitude, INS_CONING_HIST2_OPT, level);
+    for (;;)
+    {
+        ins_attitude_step(&attitude, dtheta_b);
+    }
+}
+"""
 RISCV = "--specs=picolibc.specs -march=rv32imc -mabi=ilp32"  # of an ESP32-C3
 
 
@@ -174,7 +187,11 @@ def test_arduino_takes_its_properties_and_an_8_bit_board_the_sources(tmp_path: P
         "-Werror",
     )
     run(*avr, "-c", package / "src/ins_all.c", "-o", tmp_path / "ins_all.o")
-    assert "ins_attitude_step" in run("avr-nm", tmp_path / "ins_all.o")
+    (tmp_path / "sketch.cpp").write_text(SKETCH, encoding="utf-8")
+    sketch = ("avr-g++", "-mmcu=atmega2560", "-std=gnu++11", "-Os", "-Wall", "-Werror", "-Wl,--gc-sections")
+    command = [*sketch, f"-I{package / 'src'}", tmp_path / "sketch.cpp", tmp_path / "ins_all.o", "-lm"]
+    run(*command, "-o", tmp_path / "sketch.elf")
+    assert "ins_attitude_step" in run("avr-nm", tmp_path / "sketch.elf")
 
 
 def test_esp_idf_packs_the_component_and_riscv_builds_it(tmp_path: Path) -> None:
