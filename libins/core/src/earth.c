@@ -8,8 +8,8 @@ void ins_earth_radii(ins_real sin_lat, ins_real radii[2])
 {
     earth_t earth;
     earth_at(sin_lat, 0, &earth);
-    radii[0] = 1 / earth.per_meridian;
-    radii[1] = 1 / earth.per_normal;
+    radii[0] = earth.meridian;
+    radii[1] = earth.normal;
 }
 
 ins_real ins_earth_gravity(ins_real sin_lat, ins_real height)
@@ -32,7 +32,7 @@ void ins_earth_transport_rate(ins_real sin_lat, ins_real cos_lat, ins_real heigh
     earth_t earth;
     earth_at(sin_lat, height, &earth);
     const ins_real north = v_n[0];
-    w_en_n[0] = v_n[1] * earth.per_normal;
-    w_en_n[1] = -north * earth.per_meridian;
+    w_en_n[0] = v_n[1] / earth.normal;
+    w_en_n[1] = -north / earth.meridian;
     w_en_n[2] = -w_en_n[0] * sin_lat / cos_lat;
 }

@@ -1,51 +1,9 @@
 /// \file   sculling_internal.h
-/// \brief  The default form's coning and sculling in place of calls, for the steps. Frame: b. Units: rad, m/s.
+/// \brief  The parts of a sculling step that its two paths share. Frame: b. Units: rad, m/s.
 /// SPDX-License-Identifier: MIT
 #ifndef INS_SCULLING_INTERNAL_H_INCLUDED
 #define INS_SCULLING_INTERNAL_H_INCLUDED
-#include "coning_internal.h"
 #include "ins/sculling.h"
-#include "quat_internal.h"
-#include "rotvec_internal.h"
-
-/// 1 if the default form is under way with all its history.
-static inline int sculling_is_default(const ins_sculling_t* self)
-{
-    return self->form == INS_CONING_HIST2_OPT && self->count == 2;
-}
-
-/// Rotation vector and velocity increment of the default form.
-static inline void sculling_two(const ins_sculling_t* self, const ins_increment_t* now, ins_real phi[3], ins_real dv[3])
-{
-    static const ins_coning_row_t row = CONING_ROW_HIST2_OPT;
-    const ins_real* c = row.c;
-    const ins_real* t = now->theta_b;
-    const ins_real* t1 = self->prev[0].theta_b;
-    const ins_real* t2 = self->prev[1].theta_b;
-    const ins_real* v = now->v_b;
-    const ins_real* v1 = self->prev[0].v_b;
-    const ins_real* v2 = self->prev[1].v_b;
-    // a x t is also (a + t/2) x t: one vector serves both corrections.
-    const ins_real a[3] = {c[0] * t1[0] + c[1] * t2[0] + INS_C(0.5) * t[0],
-                           c[0] * t1[1] + c[1] * t2[1] + INS_C(0.5) * t[1],
-                           c[0] * t1[2] + c[1] * t2[2] + INS_C(0.5) * t[2]};
-    const ins_real b[3] = {c[0] * v1[0] + c[1] * v2[0], c[0] * v1[1] + c[1] * v2[1], c[0] * v1[2] + c[1] * v2[2]};
-    phi[0] = t[0] + (a[1] * t[2] - a[2] * t[1]);
-    phi[1] = t[1] + (a[2] * t[0] - a[0] * t[2]);
-    phi[2] = t[2] + (a[0] * t[1] - a[1] * t[0]);
-    dv[0] = v[0] + (a[1] * v[2] - a[2] * v[1]) + (b[1] * t[2] - b[2] * t[1]);
-    dv[1] = v[1] + (a[2] * v[0] - a[0] * v[2]) + (b[2] * t[0] - b[0] * t[2]);
-    dv[2] = v[2] + (a[0] * v[1] - a[1] * v[0]) + (b[0] * t[1] - b[1] * t[0]);
-}
-
-/// q (dq + (1 - |q|^2) / 2) of attitude_internal.h, for |phi|^2 = u <= HALF_U_MAX.
-static inline void sculling_turn(const ins_real q[4], ins_real u, const ins_real phi[3], ins_real out[4])
-{
-    const ins_real s = half_sinc(u);
-    const ins_real c = HALF_COS_0 + INS_C(0.5) + half_cos_rest(u) - INS_C(0.5) * quat_norm2(q);
-    const ins_real dq[4] = {c, s * phi[0], s * phi[1], s * phi[2]};
-    quat_mul(q, dq, out);
-}
 
 static inline void sculling_keep(ins_sculling_t* self, const ins_increment_t* now)
 {

@@ -2,6 +2,7 @@
 /// \brief  Start of the strapdown, its two-part position, other points of the body. Frames: b -> n. SI, rad.
 /// SPDX-License-Identifier: MIT
 #include "earth_internal.h"
+#include "ins/ins_math.h"
 #include "ins/quat.h"
 #include "ins/vec.h"
 #include "strapdown_internal.h"
@@ -20,7 +21,7 @@ static void two_sum(ins_real a, ins_real b, ins_real* sum, ins_real* rest)
     *sum = s;
 }
 
-ins_status_t ins_strapdown_anchor(ins_strapdown_t* self)
+void ins_strapdown_anchor(ins_strapdown_t* self)
 {
     ins_position_t* p = &self->position;
     for (int i = 0; i < 3; i++)
@@ -36,7 +37,6 @@ ins_status_t ins_strapdown_anchor(ins_strapdown_t* self)
     (void)ins_quat_from_rotvec(twice, q);
     self->cos_lat = q[0];
     self->sin_lat = q[3];
-    return INS_OK;
 }
 
 ins_status_t ins_strapdown_init(ins_strapdown_t* self, int form, ins_real period_s, const ins_real q_nb[4],
@@ -54,7 +54,7 @@ ins_status_t ins_strapdown_init(ins_strapdown_t* self, int form, ins_real period
     ins_strapdown_t start = {.v_n = {v_n[0], v_n[1], v_n[2]}, .half_period = INS_C(0.5) * period_s};
     start.position = *position;
     const ins_status_t status = ins_sculling_init(&start.sculling, form, q_nb);
-    (void)ins_strapdown_anchor(&start);
+    ins_strapdown_anchor(&start);
     if (status != INS_OK || !(start.cos_lat >= INS_STRAPDOWN_COS_MIN))
     {
         return INS_E_RANGE;
@@ -86,8 +86,8 @@ void ins_strapdown_point(const ins_strapdown_t* self, const ins_real l_b[3], con
         v_n[i] = self->v_n[i] + turning[i] - cross[i];
     }
     *position = self->position;
-    position->offset[0] += l_n[0] * earth.per_meridian;
-    position->offset[1] += l_n[1] * earth.per_normal / c;
+    position->offset[0] += l_n[0] / earth.meridian;
+    position->offset[1] += l_n[1] / (earth.normal * c);
     position->offset[2] -= l_n[2];
 }
 
@@ -105,7 +105,7 @@ void ins_position_difference(const ins_position_t* a, const ins_position_t* b, i
     (void)ins_quat_from_rotvec(twice, q);
     earth_t earth;
     earth_at(q[3], a->anchor[2] + a->offset[2], &earth);
-    ned[0] = d[0] / earth.per_meridian;
-    ned[1] = d[1] / earth.per_normal * q[0];
+    ned[0] = d[0] * earth.meridian;
+    ned[1] = d[1] * earth.normal * q[0];
     ned[2] = -d[2];
 }

@@ -42,7 +42,6 @@ typedef struct ins_strapdown_t
     ins_real half_period;      ///< [s]
     ins_real half_dv[3];       ///< half of the last step's change of velocity [m/s]
     ins_real half_dlat;        ///< and of latitude [rad]
-    ins_real half_dh;          ///< and of height [m]
 } ins_strapdown_t;
 
 /// \return INS_OK; INS_E_RANGE for what ins_attitude_init refuses, NaN, a period not in (0, INS_STRAPDOWN_PERIOD_MAX], a speed above INS_STRAPDOWN_SPEED_MAX, |height| > 1e6 m,
