@@ -33,13 +33,14 @@ ins_status_t ins_attitude_step_any(ins_attitude_t* self, const ins_real dtheta_b
     ins_real phi[3];
     rotation_vector(self, row, dtheta_b, phi);
     const ins_real u = ins_vec_dot(phi, phi);
-    ins_real c = HALF_COS_0 + INS_C(0.5) + half_cos_rest(u);
+    ins_real c = half_cos_and_half(u);
     ins_real s = half_sinc(u);
     if (u > HALF_U_MAX)
     {
         ins_half_angle(u, &c, &s);
         c += INS_C(0.5);
     }
-    turn(self, c, s, phi, dtheta_b, INS_CONING_SAMPLES_MAX);
+    turn(self->q_nb, c, s, phi);
+    keep(self, dtheta_b, INS_CONING_SAMPLES_MAX);
     return starting ? INS_S_START : INS_OK;
 }

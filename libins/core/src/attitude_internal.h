@@ -18,19 +18,21 @@ static inline void rotation_vector(const ins_attitude_t* self, const ins_coning_
     coning_add(row, theta, self->prev[0], self->prev[1], self->prev[2], phi);
 }
 
-/// q (dq + (1 - |q|^2) / 2) with dq = {c - 1/2, s phi}, and theta into the history. `c` comes with the 1/2 of that formula.
-static inline void turn(ins_attitude_t* self, ins_real c, ins_real s, const ins_real phi[3], const ins_real theta[3],
-                        int samples)
+/// q := q (dq + (1 - |q|^2) / 2), dq = {c - 1/2, s phi}: `c` comes with the 1/2 of that formula.
+static inline void turn(ins_real q[4], ins_real c, ins_real s, const ins_real phi[3])
 {
-    ins_real* q = self->q_nb;
     const ins_real dq[4] = {c - INS_C(0.5) * quat_norm2(q), s * phi[0], s * phi[1], s * phi[2]};
+    quat_mul(q, dq, q);
+}
+
+static inline void keep(ins_attitude_t* self, const ins_real theta[3], int samples)
+{
     if (samples > 3)
     {
         ins_vec_copy(self->prev[1], self->prev[2]);
     }
     ins_vec_copy(self->prev[0], self->prev[1]);
     ins_vec_copy(theta, self->prev[0]);
-    quat_mul(q, dq, q);
 }
 
 /// The coefficients of the next step: the form's, or at start-up those of a form as long as the history.

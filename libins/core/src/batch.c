@@ -82,7 +82,7 @@ static void step_all(size_t n, const ins_real* restrict theta, const ins_real* r
         coning_add(&row, t, t1, t2, t2, phi);
         const ins_real u = ins_vec_dot(phi, phi);
         const ins_real s = half_sinc(u);
-        const ins_real c = HALF_COS_0 + INS_C(0.5) + half_cos_rest(u);
+        const ins_real c = half_cos_and_half(u);
         const ins_real dq[4] = {c - INS_C(0.5) * quat_norm2(p), s * phi[0], s * phi[1], s * phi[2]};
         ins_real product[4];
         quat_mul(p, dq, product);

@@ -11,10 +11,9 @@
 #define HALF_U_MAX INS_C(0.25) ///< |phi| <= 0.5 rad
 
 #ifdef INS_REAL_FLOAT
-#define HALF_COS_0 0.9999999894f
-static inline ins_real half_cos_rest(ins_real u)
+static inline ins_real half_cos_and_half(ins_real u)
 {
-    return u * (-0.1249992385f + u * 0.002596039612f);
+    return 1.4999999894f + u * (-0.1249992385f + u * 0.002596039612f);
 }
 
 static inline ins_real half_sinc(ins_real u)
@@ -22,11 +21,11 @@ static inline ins_real half_sinc(ins_real u)
     return 0.4999999992f + u * (-0.02083327892f + u * 0.0002598359888f);
 }
 #else
-#define HALF_COS_0 0.999999999999999487
-/// cos(|phi|/2) - HALF_COS_0
-static inline ins_real half_cos_rest(ins_real u)
+/// cos(|phi|/2) + 1/2, as a renormalised product wants it
+static inline ins_real half_cos_and_half(ins_real u)
 {
-    return u * (-0.124999999999897477 +
+    return 1.499999999999999487 +
+           u * (-0.124999999999897477 +
                 u * (0.00260416666338558109 + u * (-0.0000217013521351980557 + u * 9.67131371979679977e-8)));
 }
 

@@ -1,9 +1,7 @@
 /// \file   sculling.c
 /// \brief  Sculling-corrected velocity increments, with the attitude step. Frames: b -> n. Units: rad, m/s.
 /// SPDX-License-Identifier: MIT
-#include "coning_internal.h"
-#include "quat_internal.h"
-#include "rotvec_internal.h"
+#include "attitude_internal.h"
 #include "sculling_internal.h"
 
 /// 1 if the default form is under way with all its history.
@@ -36,15 +34,6 @@ static void corrected(const ins_sculling_t* self, const ins_increment_t* now, in
     dv[2] = v[2] + (a[0] * v[1] - a[1] * v[0]) + (b[0] * t[1] - b[1] * t[0]);
 }
 
-/// q (dq + (1 - |q|^2) / 2) of attitude_internal.h, for |phi|^2 = u <= HALF_U_MAX.
-static void turn(const ins_real q[4], ins_real u, const ins_real phi[3], ins_real out[4])
-{
-    const ins_real s = half_sinc(u);
-    const ins_real c = HALF_COS_0 + INS_C(0.5) + half_cos_rest(u) - INS_C(0.5) * quat_norm2(q);
-    const ins_real dq[4] = {c, s * phi[0], s * phi[1], s * phi[2]};
-    quat_mul(q, dq, out);
-}
-
 ins_status_t ins_sculling_step(ins_sculling_t* self, const ins_increment_t* increment, ins_real dv_b[3])
 {
     // The default form under way; everything else is done by the general step.
@@ -58,7 +47,7 @@ ins_status_t ins_sculling_step(ins_sculling_t* self, const ins_increment_t* incr
         if (u + 0 * dv[0] <= HALF_U_MAX)
         {
             ins_vec_copy(dv, dv_b);
-            turn(self->q_nb, u, phi, self->q_nb);
+            turn(self->q_nb, half_cos_and_half(u), half_sinc(u), phi);
             sculling_keep(self, increment);
             return INS_OK;
         }
