@@ -23,7 +23,7 @@ FAULTS = [
     ("coning_internal.h", "R(7, 60), R(-1, 60)", "R(7, 60), R(1, 60)", CONING | STEP),
     ("coning.c", "R(473, 1890)", "R(437, 1890)", CONING),
     ("coning.c", "R(33, 80)", "R(57, 80)", CONING),
-    ("quat_internal.h", "- p[3] * q[2] -", "+ p[3] * q[2] -", STEP | FITER),
+    ("quat_internal.h", "(p[3] * q[2] -", "(-p[3] * q[2] -", STEP | FITER),
     ("rotvec_internal.h", "-0.0208333333333286722", "-0.0218333333333286722", STEP),
     ("fiter.c", "{3, 13, -5, 1}", "{3, 13, -4, 1}", FITER),
     ("fiter.c", "2 * k", "k", FITER),

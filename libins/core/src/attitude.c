@@ -34,8 +34,8 @@ ins_status_t ins_attitude_step(ins_attitude_t* self, const ins_real dtheta_b[3])
         const ins_real u = ins_vec_dot(phi, phi);
         if (u <= HALF_U_MAX)
         {
-            turn(self->q_nb, half_cos_and_half(u), half_sinc(u), phi);
-            keep(self, theta, row.samples);
+            attitude_turn(self->q_nb, half_cos_and_half(u), half_sinc(u), phi);
+            attitude_keep(self, theta, row.samples);
             return INS_OK;
         }
     }

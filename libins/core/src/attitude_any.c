@@ -40,7 +40,7 @@ ins_status_t ins_attitude_step_any(ins_attitude_t* self, const ins_real dtheta_b
         ins_half_angle(u, &c, &s);
         c += INS_C(0.5);
     }
-    turn(self->q_nb, c, s, phi);
-    keep(self, dtheta_b, INS_CONING_SAMPLES_MAX);
+    attitude_turn(self->q_nb, c, s, phi);
+    attitude_keep(self, dtheta_b, INS_CONING_SAMPLES_MAX);
     return starting ? INS_S_START : INS_OK;
 }

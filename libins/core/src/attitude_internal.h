@@ -19,13 +19,13 @@ static inline void rotation_vector(const ins_attitude_t* self, const ins_coning_
 }
 
 /// q := q (dq + (1 - |q|^2) / 2), dq = {c - 1/2, s phi}: `c` comes with the 1/2 of that formula.
-static inline void turn(ins_real q[4], ins_real c, ins_real s, const ins_real phi[3])
+static inline void attitude_turn(ins_real q[4], ins_real c, ins_real s, const ins_real phi[3])
 {
     const ins_real dq[4] = {c - INS_C(0.5) * quat_norm2(q), s * phi[0], s * phi[1], s * phi[2]};
     quat_mul(q, dq, q);
 }
 
-static inline void keep(ins_attitude_t* self, const ins_real theta[3], int samples)
+static inline void attitude_keep(ins_attitude_t* self, const ins_real theta[3], int samples)
 {
     if (samples > 3)
     {

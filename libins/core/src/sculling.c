@@ -47,7 +47,7 @@ ins_status_t ins_sculling_step(ins_sculling_t* self, const ins_increment_t* incr
         if (u + 0 * dv[0] <= HALF_U_MAX)
         {
             ins_vec_copy(dv, dv_b);
-            turn(self->q_nb, half_cos_and_half(u), half_sinc(u), phi);
+            attitude_turn(self->q_nb, half_cos_and_half(u), half_sinc(u), phi);
             sculling_keep(self, increment);
             return INS_OK;
         }
