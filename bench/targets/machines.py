@@ -130,5 +130,23 @@ MACHINES = {
             _RISCV,
             Memory(0x80000000, 0x400000, 0x80400000, 0x200000),
         ),
+        Machine(
+            "avr",
+            "avr-",
+            ("-mmcu=atmega1284p", "-DF_CPU=16000000UL"),
+            ("simavr", "-m", "atmega1284p", "-f", "16000000"),
+            "gcc-avr avr-libc simavr",
+            numbers=("f32",),  # its double has 32 bits
+        ),
+        Machine(
+            "armel",
+            "arm-linux-gnueabi-",
+            ("-march=armv5te", "-mfloat-abi=soft"),
+            ("qemu-arm", "-cpu", "arm926"),
+            "gcc-arm-linux-gnueabi libc6-dev-armel-cross qemu-user",
+        ),
+        Machine("s390x", "s390x-linux-gnu-", (), ("qemu-s390x",), "gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user"),
+        Machine("i686", "i686-linux-gnu-", ("-msse2", "-mfpmath=sse"), (), "gcc-i686-linux-gnu libc6-dev-i386-cross"),
+        Machine("x86_64", "", (), (), "gcc libc6-dev"),
     )
 }
