@@ -63,6 +63,9 @@ def measure() -> list[Row]:
         if not mcs51.exists():
             raise SystemExit(f"{script.name} gave no figures (exit code {done.returncode})")
         rows += json.loads(mcs51.read_text())
+        targets = Path(folder) / "targets.json"
+        subprocess.run([sys.executable, ROOT / "bench/targets/measure.py", "--json", targets], check=True)
+        rows += json.loads(targets.read_text())
     return rows
 
 

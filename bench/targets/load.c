@@ -4,6 +4,12 @@
 /// LOAD_ATTITUDE, LOAD_Q31 or LOAD_Q31W names the step. All data is static: what a step stores on the stack is its own.
 /// SPDX-License-Identifier: MIT
 #include "ins/ins.h"
+#ifdef __AVR__
+#include "load_avr.h"
+#else
+#define MEASURED(call) (call)
+#define END(code)      (code)
+#endif
 
 #define SAMPLES 16
 #define STEPS   80 // the first 16 are start-up and not looked at
@@ -48,14 +54,14 @@ int main(void)
 {
     if (INIT(&state, level) != INS_OK)
     {
-        return 1;
+        return END(1);
     }
     for (int k = 0; k < STEPS; k++)
     {
-        if (STEP(&state, increment[k % SAMPLES]) < INS_OK)
+        if (MEASURED(STEP(&state, increment[k % SAMPLES])) < INS_OK)
         {
-            return 2;
+            return END(2);
         }
     }
-    return 0;
+    return END(0);
 }

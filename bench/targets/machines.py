@@ -5,6 +5,7 @@ Bare metal is picolibc with semihosting: no start-up code or linker script of ou
 """
 
 import os
+import re
 import shutil
 import subprocess
 from collections.abc import Sequence
@@ -64,7 +65,7 @@ class Machine:
     def connect(self, objects: Sequence[Path], out: Path) -> None:
         tell(self.tool("gcc"), *self.cpu, *self.link(), "-Wl,--gc-sections", *objects, "-lm", "-o", out)
 
-    def start(self, program: Path, extra: Sequence[str] = ()) -> tuple[int, str]:
+    def start(self, program: Path, extra: Sequence[str] = (), limit_s: float = RUN_LIMIT_S) -> tuple[int, str]:
         """(Exit code, what it printed); extra goes to the emulator."""
         if not self.run:
             command = [str(program)]
@@ -77,13 +78,14 @@ class Machine:
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
                 text=True,
-                timeout=RUN_LIMIT_S,
+                timeout=limit_s,
             )
         except subprocess.TimeoutExpired as error:
             raise MachineError(
-                f"{self.name}: no end after {RUN_LIMIT_S} s (a trap hangs QEMU); look with -d int: {' '.join(command)}"
+                f"{self.name}: no end after {limit_s} s (a trap hangs QEMU); look with -d int: {' '.join(command)}"
             ) from error
-        return done.returncode, done.stdout
+        # simavr colours what the UART sends, and ends each line with a full stop.
+        return done.returncode, re.sub(r"\x1b\[\d*m", "", done.stdout)
 
 
 def need(tool: str, packages: str) -> str:
@@ -145,7 +147,13 @@ MACHINES = {
             ("qemu-arm", "-cpu", "arm926"),
             "gcc-arm-linux-gnueabi libc6-dev-armel-cross qemu-user",
         ),
-        Machine("s390x", "s390x-linux-gnu-", (), ("qemu-s390x",), "gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user"),
+        Machine(
+            "s390x",
+            "s390x-linux-gnu-",
+            ("-fexcess-precision=fast",),  # else gcc computes float in double here (FLT_EVAL_METHOD 1 in strict C11)
+            ("qemu-s390x",),
+            "gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user",
+        ),
         Machine("i686", "i686-linux-gnu-", ("-msse2", "-mfpmath=sse"), (), "gcc-i686-linux-gnu libc6-dev-i386-cross"),
         Machine("x86_64", "", (), (), "gcc libc6-dev"),
     )

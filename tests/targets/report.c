@@ -110,15 +110,20 @@ void same_end(void)
     report_text("\n");
 }
 
-void near_reals(const char* name, const ins_real* x, unsigned n)
+void report_reals(const ins_real* x, unsigned n)
 {
-    report_text("near ");
-    report_text(name);
     for (unsigned i = 0; i < n; i++)
     {
         report_text(" ");
         hexadecimal(pattern(x[i]), 2 * sizeof(bits_t));
     }
+}
+
+void near_reals(const char* name, const ins_real* x, unsigned n)
+{
+    report_text("near ");
+    report_text(name);
+    report_reals(x, n);
     report_text("\n");
 }
 

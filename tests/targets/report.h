@@ -18,6 +18,8 @@ int port_exit(int code);
 
 void report_text(const char* text);
 void report_number(uint32_t n);
+/// A space and the bit pattern of each.
+void report_reals(const ins_real* x, unsigned n);
 /// \return what main returns.
 int report_exit(unsigned failed);
 
