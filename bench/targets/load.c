@@ -12,7 +12,7 @@
 #endif
 
 #define SAMPLES 16
-#define STEPS   80 // the first 16 are start-up and not looked at
+#define STEPS   80 // the first 16 are start-up
 
 #if defined(LOAD_ATTITUDE)
 typedef ins_attitude_t state_t;
@@ -63,5 +63,12 @@ int main(void)
             return END(2);
         }
     }
+#ifdef LOAD_ATTITUDE
+    static const number_t large[3] = {RAD(2.0), RAD(-1.0), RAD(0.5)}; // takes the longest way, and the deepest
+    if (MEASURED(STEP(&state, large)) < INS_OK)
+    {
+        return END(3);
+    }
+#endif
     return END(0);
 }
