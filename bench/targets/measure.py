@@ -9,7 +9,7 @@ core, constants included, soft float not; step, the step function alone. stack i
 start-up and with a large increment too, soft float included; interrupts come on top.
 
 Without --flags each module is built with -O2 or what BEST has. budgets.toml holds what was measured; --check fails if a
-figure is more than 2 % above it, --write writes it anew (of all machines and loads).
+figure is more than 2 % above it, --write writes it anew, with the table in docs/targets.md.
 """
 
 import argparse
@@ -29,6 +29,7 @@ from machines import CORE, MACHINES, NUMBER, ROOT, Machine, MachineError, need, 
 WARM_UP, STEADY = 16, 64  # calls
 GROWTH = 1.02
 BUDGETS = Path(__file__).with_name("budgets.toml")
+PAGE = ROOT / "docs/targets.md"
 LOADS = {
     "attitude.hist2.f64": ("ins_attitude_step", "LOAD_ATTITUDE", "f64"),
     "attitude.hist2.f32": ("ins_attitude_step", "LOAD_ATTITUDE", "f32"),
@@ -189,6 +190,24 @@ def budgets_text(found: Iterable[Figure]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def table() -> str:
+    """The budgets as docs/targets.md has them."""
+    lines = ["| | instructions | text | step | state | stack |", "|---|---|---|---|---|---|"]
+    for name, entry in tomllib.loads(BUDGETS.read_text(encoding="utf-8")).items():
+        values = (entry.get(quantity) for quantity in QUANTITIES)
+        cells = ["-" if value is None else f"{round(value):,}" for value in values]
+        unit = " cycles" if name.endswith(".avr") else ""
+        lines.append(f"| {name.removeprefix('attitude.')} | {cells[0]}{unit} | {' | '.join(cells[1:])} |")
+    return "\n".join(lines) + "\n"
+
+
+def write(found: Iterable[Figure]) -> None:
+    BUDGETS.write_text(budgets_text(found), encoding="utf-8")
+    page = PAGE.read_text(encoding="utf-8")
+    start = page.index("| | instructions |")
+    PAGE.write_text(page[:start] + table() + page[page.index("\n\n", start) + 1 :], encoding="utf-8")
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     parser.add_argument("--machines", default=",".join(MEASURED))
@@ -200,14 +219,17 @@ def main() -> int:
     todo.add_argument("--check", action="store_true")
     options = parser.parse_args()
     flags = options.flags.split(",") if options.flags else []
+    machines, loads = options.machines.split(","), options.loads.split(",")
+    if options.write and (flags or machines != list(MEASURED) or loads != list(LOADS)):
+        parser.error("--write takes all machines and loads, with their own flags")
     print("machine   load                flags instructions   most   text   step  state  stack")
     found = []
-    for f in figures(options.machines.split(","), options.loads.split(","), flags):
+    for f in figures(machines, loads, flags):
         found.append(f)
         sizes = f"{f.text:>6} {f.step:>6} {f.state:>6} {'-' if f.stack is None else f.stack:>6}"
         print(f"{f.machine:<9} {f.load:<19} {f.flags:<5} {f.instructions:>12} {f.most:>6} {sizes}", flush=True)
     if options.write:
-        BUDGETS.write_text(budgets_text(found), encoding="utf-8")
+        write(found)
     if options.json is not None:
         options.json.write_text(json.dumps(rows(found), indent=2) + "\n", encoding="utf-8")
     too_much = [line for figure in found for line in growth(figure)] if options.check else []

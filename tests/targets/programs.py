@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from machines import CORE, MACHINES, NUMBER, Machine, MachineError
+from machines import CORE, MACHINES, NUMBER, WARNINGS, Machine, MachineError
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -119,7 +119,8 @@ def build(machine: Machine, number: str, program: str, options: Sequence[str] = 
     flags = [*OPTIMISATION, *NUMBER[number], *options]
     port = "port_avr" if machine.name == "avr" else "port"
     parts = [HERE / f"{part}.c" for part in ("report", port, *PROGRAMS[program])]
-    objects = [*core_objects(machine, flags), compiled(machine, f"{program}_{port}", parts, flags)]
+    warnings = [w for w in WARNINGS if w != "-Wdouble-promotion" or machine.name != "avr"]  # double is float there
+    objects = [*core_objects(machine, flags), compiled(machine, f"{program}_{port}", parts, [*flags, *warnings])]
     if program == "vectors":
         data = tape or table()
         objects.append(compiled(machine, data.stem, [data], flags))

@@ -4,7 +4,7 @@
 from dataclasses import replace
 
 import pytest
-from measure import LOADS, MEASURED, Figure, figures, growth
+from measure import LOADS, MEASURED, PAGE, Figure, figures, growth, table
 
 
 @pytest.fixture(scope="module")
@@ -25,3 +25,7 @@ def test_three_percent_are_noticed(measured: list[Figure]) -> None:
     assert growth(replace(figure, instructions=1.03 * figure.instructions))
     assert growth(replace(figure, text=figure.text + figure.text // 25))
     assert growth(replace(figure, machine="m5"))
+
+
+def test_the_page_shows_the_budgets() -> None:
+    assert table() in PAGE.read_text(encoding="utf-8"), "python3 bench/targets/measure.py --write"

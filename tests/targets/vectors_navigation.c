@@ -10,22 +10,22 @@ static void sculling(void)
     static const int forms[] = {INS_CONING_ONE, INS_CONING_HIST1, INS_CONING_HIST2_OPT};
     for (unsigned cases = tape_section("sculling", INS_TOL(INS_C(1e-12), INS_C(3e-7))); cases > 0; cases--)
     {
-        ins_increment_t last[3]; // oldest first
+        ins_increment_t recent[3]; // oldest first
         const unsigned rows = (unsigned)tape_integer();
-        tape_reals(last[1].theta_b, 3);
-        tape_reals(last[1].v_b, 3);
-        tape_reals(last[2].theta_b, 3);
-        tape_reals(last[2].v_b, 3);
+        tape_reals(recent[1].theta_b, 3);
+        tape_reals(recent[1].v_b, 3);
+        tape_reals(recent[2].theta_b, 3);
+        tape_reals(recent[2].v_b, 3);
         for (unsigned k = 0; k < rows; k++)
         {
-            last[0] = last[1];
-            last[1] = last[2];
-            tape_reals(last[2].theta_b, 3);
-            tape_reals(last[2].v_b, 3);
+            recent[0] = recent[1];
+            recent[1] = recent[2];
+            tape_reals(recent[2].theta_b, 3);
+            tape_reals(recent[2].v_b, 3);
             for (int i = 0; i < 3; i++)
             {
                 ins_real dv[3];
-                check_true(ins_sculling_dv(forms[i], last + 3 - ins_coning_samples(forms[i]), dv) == INS_OK);
+                check_true(ins_sculling_dv(forms[i], recent + 3 - ins_coning_samples(forms[i]), dv) == INS_OK);
                 check_together(dv, 3, 0);
             }
         }
