@@ -158,6 +158,36 @@ void rotation_vector()
         point("rotvec", type, angle, worst);
     }
 }
+#ifndef INS_REAL_FLOAT
+/// Pitch this far from the pole, roll and yaw anything: the library's pitch, and the arc sine of the direction cosine.
+void pole()
+{
+    for (int i = 0; i <= 32; i++)
+    {
+        const long double off = std::pow(10.0L, -8 + i * 0.25L);
+        const long double pitch = std::acos(-1.0L) / 2 - off;
+        double worst[2] = {0, 0};
+        for (int k = 0; k < 100; k++)
+        {
+            const long double y = std::sin(1.7L * k), r = std::cos(2.3L * k); // half angles
+            const long double c = std::cos(pitch / 2), s = std::sin(pitch / 2);
+            const long double exact[4] = {std::cos(y) * c * std::cos(r) + std::sin(y) * s * std::sin(r),
+                                          std::cos(y) * c * std::sin(r) - std::sin(y) * s * std::cos(r),
+                                          std::cos(y) * s * std::cos(r) + std::sin(y) * c * std::sin(r),
+                                          std::sin(y) * c * std::cos(r) - std::cos(y) * s * std::sin(r)};
+            ins_real q[4];
+            std::copy(exact, exact + 4, q);
+            ins_real euler[3];
+            ins_quat_to_euler(q, euler);
+            const double sine = std::min(1.0, 2 * (q[0] * q[2] - q[1] * q[3]));
+            worst[0] = std::max(worst[0], static_cast<double>(std::fabs(euler[1] - pitch)));
+            worst[1] = std::max(worst[1], static_cast<double>(std::fabs(std::asin(sine) - pitch)));
+        }
+        point("euler_pole", "library", static_cast<double>(off), worst[0]);
+        point("euler_pole", "arc sine", static_cast<double>(off), worst[1]);
+    }
+}
+#endif
 } // namespace
 
 void figures::coning()
@@ -165,6 +195,7 @@ void figures::coning()
 #ifndef INS_REAL_FLOAT
     table();
     against_frequency();
+    pole();
 #endif
     rotation_vector();
 }

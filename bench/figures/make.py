@@ -46,6 +46,7 @@ SPECS = {
     "coning_drift": Figure("rotation of the cone in one increment, μ [rad]", "drift / (a² Ω), a = 0.5°"),
     "coning_step": Figure("increment's length T [s]", "largest attitude error in 24 s, motion B [rad]"),
     "rotvec": Figure("|Φ| [rad]", "largest error of a component", rounding="."),
+    "euler_pole": Figure("pitch, from the pole [rad]", "largest error of the pitch [rad]", rounding="."),
     "rates_step": Figure("sampling period T [s]", "largest attitude error in 24 s, motion B [rad]"),
     "skew": Figure("vibration [Hz], 1°, one channel 0.3 ms late", "false drift [°/h]"),
     "fiter_step": Figure("increment or sampling period T [s]", "largest attitude error in 24 s, motion B [rad]"),
@@ -55,6 +56,7 @@ SPECS = {
         "phase in one increment, μ [rad]: 2°, 10 m/s², 5 Hz", "error of the mean acceleration [m/s²]"
     ),
     "strapdown_step": Figure("step [s]", "error after 120 s", rounding="float"),
+    "gravity_height": Figure("height [m]", "largest error of all latitudes [m/s²]"),
     "geodesy_height": Figure("height [m]", "there and back, largest of all latitudes [m]", rounding="."),
     "tm_distance": Figure(
         "from the central meridian [°]", "largest error, latitudes 5° to 75° [m]", rounding="Krueger"

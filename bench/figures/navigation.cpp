@@ -47,6 +47,47 @@ void ellipsoid()
 }
 
 #ifndef INS_REAL_FLOAT
+/// Against the closed form of the ellipsoid's field (Moritz, Geodetic Reference System 1980), its magnitude, all latitudes.
+void gravity()
+{
+    using L = long double;
+    const L a = 6378137, f = 1 / 298.257223563L, b = a * (1 - f), GM = 3986004.418e8L, omega = 7.292115e-5L;
+    const L E = std::sqrt(a * a - b * b), e2 = f * (2 - f);
+    const auto q_of = [E](L u) { return ((1 + 3 * u * u / (E * E)) * std::atan(E / u) - 3 * u / E) / 2; };
+    for (int i = 0; i <= 16; i++)
+    {
+        const double height = std::pow(10.0, 1 + i * 0.25);
+        double worst[2] = {0, 0};
+        for (int degree = -90; degree <= 90; degree += 5)
+        {
+            const L lat = static_cast<L>(degree) * RAD, s = std::sin(lat), N = a / std::sqrt(1 - e2 * s * s);
+            const L p = (N + height) * std::cos(lat), z = (N * (1 - e2) + height) * s;
+            const L rest = p * p + z * z - E * E;
+            const L u = std::sqrt(rest / 2 * (1 + std::sqrt(1 + 4 * E * E * z * z / (rest * rest))));
+            const L v = std::sqrt(u * u + E * E), beta = std::atan2(z * v, u * p), sb = std::sin(beta),
+                    cb = std::cos(beta);
+            const L w = std::sqrt((u * u + E * E * sb * sb) / (v * v));
+            const L slope = 3 * (1 + u * u / (E * E)) * (1 - u / E * std::atan(E / u)) - 1;
+            const L rotation = omega * omega * a * a / q_of(b);
+            const L along_u = (omega * omega * u * cb * cb - GM / (v * v) -
+                               rotation * E / (v * v) * slope * (sb * sb / 2 - 1 / 6.0L)) /
+                              w;
+            const L along_beta = (rotation / v * q_of(u) - omega * omega * v) * sb * cb / w;
+            const L want = std::sqrt(along_u * along_u + along_beta * along_beta);
+            const double sin_lat = static_cast<double>(s);
+            const double gradient = (ins_earth_gravity(sin_lat, 1) - ins_earth_gravity(sin_lat, -1)) / 2;
+            const double got[] = {ins_earth_gravity(sin_lat, height),
+                                  ins_earth_gravity(sin_lat, 0) + gradient * height};
+            for (int k = 0; k < 2; k++)
+            {
+                worst[k] = std::max(worst[k], static_cast<double>(std::fabs(got[k] - want)));
+            }
+        }
+        point("gravity_height", "library, second order", height, worst[0]);
+        point("gravity_height", "gradient alone", height, worst[1]);
+    }
+}
+
 /// Rotation a sin about x, force B sin along y, in phase at Omega: the mean force along z is B J1(a).
 void sculling_drift()
 {
@@ -199,6 +240,7 @@ void figures::navigation()
     strapdown_step();
     ellipsoid();
 #ifndef INS_REAL_FLOAT
+    gravity();
     sculling_drift();
     grid();
     six_accelerometers();
