@@ -20,6 +20,8 @@ GCC = ["gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable",
 TYPES = {"double": ([], "libins.a"), "float": (["-DINS_REAL_FLOAT"], "libinsf.a")}
 # Names that an example uses with another type than prelude.h gives them.
 OWN_NAMES = {
+    "ins/accelfit.h": "static ins_real u0[3], e1[3], e2[3], p_guess[8], reading[N], tolerance;"
+    "static ins_accelfit_motion_t motion[N];",
     "ins/batch.h": "ins_real q_nb0[4 * N] = {0}, dtheta_b[3 * N] = {0};",
     "ins/gps_axis.h": "ins_real var[4] = {0};",
     "ins/q31.h": "int32_t q_nb0[4] = {0}, dtheta_b[3] = {0};",

@@ -30,6 +30,12 @@ def test_a_function_without_a_comment_is_found() -> None:
     assert undocumented(text) == ["b"]
 
 
+@pytest.mark.parametrize("header", headers(), ids=name)
+def test_a_param_has_one_name(header: Path) -> None:
+    """Two with a comma between them cannot be shown on the site."""
+    assert re.findall(r"\\param(?:\[[a-z,]+\])?\s+\w+,.*", header.read_text(encoding="utf-8")) == []
+
+
 def test_every_header_of_the_core_has_a_page() -> None:
     modules = [page.read_text(encoding="utf-8") for page in (ROOT / "docs").glob("*.md")]
     core = [name(header) for header in headers() if name(header).startswith("ins/")]

@@ -6,7 +6,7 @@
 ///     ins_real step = 1;
 ///     while (step > tolerance)   // Gauss-Newton: some four passes over the measurements
 ///     {
-///         for (int k = 0; k < n; k++) { ins_accelfit_add(&fit, &motion[k], reading[k]); }
+///         for (unsigned k = 0; k < n; k++) { ins_accelfit_add(&fit, &motion[k], reading[k]); }
 ///         if (ins_accelfit_step(&fit, &step) != INS_OK) { break; }   // these poses do not fix all eight
 ///     }
 ///
@@ -44,7 +44,7 @@ typedef struct ins_accelfit_t
     uint32_t rows;                               ///< rows of this pass
 } ins_accelfit_t;
 
-/// \param[in] u0,e1,e2  [3] nominal axis and the directions of m1 and m2; u0 not zero.
+/// \param[in] u0  [3] nominal axis, not zero. \param[in] e1  [3] direction of m1. \param[in] e2  [3] direction of m2.
 /// \param[in] p  [8] first guess; SF not zero. \return INS_OK; INS_E_RANGE for a zero axis or SF, NaN or infinity.
 INS_API ins_status_t ins_accelfit_init(ins_accelfit_t* self, const ins_real u0[3], const ins_real e1[3],
                                        const ins_real e2[3], const ins_real p[INS_ACCELFIT_N]);
