@@ -97,7 +97,7 @@ def test_both_types_in_one_program_do_not_configure(prefix: Prefix, tmp_path: Pa
 )
 def test_what_is_not_there_is_said(prefix: Prefix, tmp_path: Path, wanted: str, words: str) -> None:
     (tmp_path / "CMakeLists.txt").write_text(
-        f"cmake_minimum_required(VERSION 3.16)\nproject(x LANGUAGES C)\nfind_package(libins {wanted} REQUIRED)\n"
+        f"cmake_minimum_required(VERSION 3.25)\nproject(x LANGUAGES C)\nfind_package(libins {wanted} REQUIRED)\n"
     )
     assert words in configure(tmp_path, tmp_path / "build", f"-DCMAKE_PREFIX_PATH={prefix('static')}", code=1)
 
