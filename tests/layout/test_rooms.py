@@ -19,7 +19,7 @@ ROOMS: dict[str, tuple[str, str, set[str], set[str]]] = {
     "python": (
         "bindings/python",
         "libins_py/",
-        {"_run", "_dds"},
+        {"_run", "_dds", "ins_python_core", "ins_python_coref"},
         {"core", "truth", "navd", "dds", "emu_common", "emu_8051"},
     ),
 }
