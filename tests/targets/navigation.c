@@ -130,6 +130,35 @@ static void sixacc(void)
     same_end();
 }
 
+static void accelfit(void)
+{
+    static const ins_real axes[3][3] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
+    static const ins_real guess[INS_ACCELFIT_N] = {INS_C(0.1), 1, 0, 0, 0, 0, 0, 0};
+    ins_accelfit_t self;
+    same_begin("accelfit");
+    same_integer((uint32_t)ins_accelfit_init(&self, axes[0], axes[1], axes[2], guess));
+    for (int pass = 0; pass < 2; pass++)
+    {
+        ins_real deviation[INS_ACCELFIT_N];
+        ins_real largest = 0;
+        for (int k = 0; k < STEPS; k++)
+        {
+            ins_accelfit_motion_t motion;
+            random_reals(10, motion.f_b, 3);
+            random_reals(5, motion.w_ib_b, 3);
+            random_reals(20, motion.wd_ib_b, 3);
+            const ins_real reading = motion.f_b[2] + random_real(INS_C(0.1));
+            same_integer((uint32_t)ins_accelfit_add(&self, &motion, reading));
+        }
+        same_integer((uint32_t)ins_accelfit_deviation(&self, INS_C(0.01), deviation));
+        same_reals(deviation, INS_ACCELFIT_N);
+        same_integer((uint32_t)ins_accelfit_step(&self, &largest));
+        same_real(largest);
+        same_reals(self.p, INS_ACCELFIT_N);
+    }
+    same_end();
+}
+
 static void alignment(void)
 {
     static const ins_real down[3] = {0, 0, 1};
@@ -184,6 +213,7 @@ void run_navigation(void)
     strapdown();
     earth();
     sixacc();
+    accelfit();
     alignment();
     gimu_scaling();
 }
