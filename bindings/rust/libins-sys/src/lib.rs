@@ -4,7 +4,7 @@
 //! `float` sets [`ins_real`] and with it the whole library.
 //! SPDX-License-Identifier: MIT
 #![no_std]
-#![allow(non_camel_case_types, non_snake_case, non_upper_case_globals, rustdoc::broken_intra_doc_links)]
+#![allow(clippy::excessive_precision, non_camel_case_types, non_snake_case, non_upper_case_globals, rustdoc::broken_intra_doc_links)]
 
 #[cfg(all(feature = "double", feature = "float"))]
 compile_error!("libins-sys: choose one of the features `double` and `float`; float needs default-features = false");
