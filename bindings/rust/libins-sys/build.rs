@@ -37,11 +37,18 @@ fn chosen(name: &str, target: &str) -> Option<String> {
     )
 }
 
-fn run(command: &mut Command) {
-    match command.status() {
-        Ok(status) if status.success() => {}
-        Ok(status) => fail(&format!("{command:?} ended with {status}")),
+/// Runs all at once, and waits.
+fn run(commands: Vec<Command>) {
+    let start = |mut command: Command| match command.spawn() {
+        Ok(child) => (command, child),
         Err(error) => fail(&format!("{command:?}: {error}. Set CC_<target> and AR_<target> to the tools of the target")),
+    };
+    let running: Vec<_> = commands.into_iter().map(start).collect();
+    for (command, mut child) in running {
+        match child.wait() {
+            Ok(status) if status.success() => {}
+            other => fail(&format!("{command:?} ended with {other:?}")),
+        }
     }
 }
 
@@ -61,31 +68,40 @@ fn main() {
     };
     let target = variable("TARGET");
     let row = CROSS.iter().find(|row| row.0 == target);
-    let prefix = match row {
-        _ if target == variable("HOST") => "",
-        Some(row) => row.1,
-        None => "unknown-",
+    let prefix = if target == variable("HOST") { Some("") } else { row.map(|row| row.1) };
+    let tool = |name: &str, default: &str| {
+        let known = || prefix.map(|prefix| format!("{prefix}{default}"));
+        chosen(name, &target).or_else(known).unwrap_or_else(|| fail(&format!("set CC_{target} and AR_{target} to the tools of the target")))
     };
-    let compiler = chosen("CC", &target).unwrap_or(if prefix.is_empty() { "cc".into() } else { format!("{prefix}gcc") });
-    let archiver = chosen("AR", &target).unwrap_or(format!("{prefix}ar"));
+    let (compiler, archiver) = (tool("CC", if prefix == Some("") { "cc" } else { "gcc" }), tool("AR", "ar"));
     let hosted = variable("CARGO_CFG_TARGET_OS") != "none";
 
     let core = PathBuf::from(variable("CARGO_MANIFEST_DIR")).join("core");
     let out = PathBuf::from(variable("OUT_DIR"));
-    let mut words = compiler.split_whitespace();
-    let mut compile = Command::new(words.next().unwrap_or_else(|| fail("CC is empty")));
-    compile.args(words).args(row.map_or(&[] as &[&str], |row| row.2)).args(["-std=c11", "-ffp-contract=off", "-ffunction-sections", "-c"]);
-    compile.arg(if ["s", "z"].contains(&variable("OPT_LEVEL").as_str()) { "-Os" } else { "-O2" });
-    compile.args(hosted.then_some("-fPIC")).args(float.then_some("-DINS_REAL_FLOAT"));
-    compile.args(chosen("CFLAGS", &target).unwrap_or_default().split_whitespace());
+    let mut flags: Vec<String> = compiler.split_whitespace().map(Into::into).collect();
+    flags.extend(row.map_or(&[] as &[&str], |row| row.2).iter().map(ToString::to_string));
+    flags.extend(["-std=c11", "-ffp-contract=off", "-ffunction-sections", "-c"].map(Into::into));
+    flags.push(if ["s", "z"].contains(&variable("OPT_LEVEL").as_str()) { "-Os" } else { "-O2" }.into());
+    flags.extend(hosted.then(|| "-fPIC".into()));
+    flags.extend(float.then(|| "-DINS_REAL_FLOAT".into()));
+    flags.extend(chosen("CFLAGS", &target).unwrap_or_default().split_whitespace().map(Into::into));
+
     let sources = sources(&core.join("src"));
-    run(compile.arg("-I").arg(core.join("include")).args(&sources).current_dir(&out));
+    let share = sources.len().div_ceil(variable("NUM_JOBS").parse().unwrap_or(1)).max(1);
+    let compile = |files: &[PathBuf]| {
+        let mut command = Command::new(&flags[0]);
+        command.args(&flags[1..]).arg("-I").arg(core.join("include")).args(files).current_dir(&out);
+        command
+    };
+    run(sources.chunks(share).map(compile).collect());
 
     let name = if float { "insf" } else { "ins" };
     let library = out.join(format!("lib{name}.a"));
     let _ = fs::remove_file(&library); // ar would keep members that are gone
     let objects = sources.iter().filter_map(|path| path.file_stem()).map(|stem| out.join(stem).with_extension("o"));
-    run(Command::new(&archiver).arg("crs").arg(&library).args(objects));
+    let mut archive = Command::new(&archiver);
+    archive.arg("crs").arg(&library).args(objects);
+    run(vec![archive]);
 
     println!("cargo::rerun-if-changed={}", core.display());
     println!("cargo::rustc-link-search=native={}", out.display());
