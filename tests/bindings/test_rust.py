@@ -1,4 +1,4 @@
-"""The Rust crates: their declarations are the headers', cargo's own tests pass, they need neither std nor an allocator."""
+"""The Rust crates: declarations as in the headers, cargo's own tests, neither std nor an allocator needed."""
 
 import os
 import re
@@ -68,7 +68,7 @@ def functions(text: str) -> dict[str, str]:
 
 
 def program(text: str, constants: str) -> str:
-    """A C program that compiles only if types and functions are those of the headers, and names the constants that are not."""
+    """A C program that compiles only if types and functions are the headers', and names the constants that are not."""
     lines = ['#include "ins/ins.h"', "#include <stdio.h>", *functions(text).values()]
     for name, body in re.findall(r"pub struct (ins_\w+) \{(.*?)\n\}", text, re.DOTALL):
         fields = re.findall(r"pub (\w+): (.+),", body)
@@ -146,7 +146,7 @@ def test_cargo_test(kind: str) -> None:
 @pytest.mark.parametrize("kind", TYPES)
 def test_lints(kind: str) -> None:
     assert shutil.which("cargo-clippy") and shutil.which("cargo-fmt"), (
-        "clippy or rustfmt is missing: apt-get install rust-web-clippy rustfmt-web, or rustup component add clippy rustfmt"
+        "clippy or rustfmt is missing: apt-get install rust-web-clippy rustfmt-web, or rustup component add"
     )
     passed(cargo("clippy", "--offline", "--locked", "--all-targets", *TYPES[kind], "--", "-D", "warnings"))
     passed(cargo("fmt", "--check"))
