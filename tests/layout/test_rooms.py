@@ -22,6 +22,7 @@ ROOMS: dict[str, tuple[str, str, set[str], set[str]]] = {
         {"_run", "_dds", "ins_python_core", "ins_python_coref"},
         {"core", "truth", "navd", "dds", "emu_common", "emu_8051"},
     ),
+    "cpp": ("bindings/cpp", "ins/ins.hpp", {"ins_cpp", "ins_cppf"}, {"core"}),
 }
 # A firmware folder holds programs for a board, not parts of the emulator: it may include core.
 FIRMWARE = "firmware"

@@ -1,5 +1,6 @@
 // Made by bindings/rust/generate from libins/core/include/ins/ins.h: do not edit.
 
+pub const INS_ACCELFIT_N: u32 = 8;
 pub const INS_CONING_SAMPLES_MAX: u32 = 4;
 pub const INS_BATCH_ROWS: u32 = 10;
 pub const INS_DR_RATE: u32 = 1;
@@ -49,6 +50,78 @@ pub const INS_E_GATE: _bindgen_ty_1 = -4;
 pub const INS_S_START: _bindgen_ty_1 = 1;
 pub const INS_STATUS_COUNT_: _bindgen_ty_1 = 6;
 pub type _bindgen_ty_1 = ::core::ffi::c_int;
+#[doc = "What the fixture does at the body's origin, all resolved in b. At rest f_b is +g along the upward vertical."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_accelfit_motion_t {
+    #[doc = "specific force [m/s^2]"]
+    pub f_b: [ins_real; 3usize],
+    #[doc = "angular rate [rad/s]"]
+    pub w_ib_b: [ins_real; 3usize],
+    #[doc = "angular acceleration [rad/s^2]"]
+    pub wd_ib_b: [ins_real; 3usize],
+}
+#[doc = "Owned by the caller."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_accelfit_t {
+    #[doc = "nominal axis, and the two directions in which it may lean"]
+    pub u0: [ins_real; 3usize],
+    #[doc = "nominal axis, and the two directions in which it may lean"]
+    pub e1: [ins_real; 3usize],
+    #[doc = "nominal axis, and the two directions in which it may lean"]
+    pub e2: [ins_real; 3usize],
+    #[doc = "the present estimate"]
+    pub p: [ins_real; 8usize],
+    #[doc = "triangle of the rows of this pass"]
+    pub R: [ins_real; 64usize],
+    #[doc = "their right-hand side"]
+    pub z: [ins_real; 8usize],
+    #[doc = "sum of squared residuals about p of this pass"]
+    pub residual2: ins_real,
+    #[doc = "rows of this pass"]
+    pub rows: u32,
+}
+impl Default for ins_accelfit_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
+extern "C" {
+    #[doc = "\\param[in] u0  [3] nominal axis, not zero. \\param[in] e1  [3] direction of m1. \\param[in] e2  [3] direction of m2."]
+    #[doc = "\\param[in] p  [8] first guess; SF not zero. \\return INS_OK; INS_E_RANGE for a zero axis or SF, NaN or infinity."]
+    pub fn ins_accelfit_init(
+        self_: *mut ins_accelfit_t,
+        u0: *const ins_real,
+        e1: *const ins_real,
+        e2: *const ins_real,
+        p: *const ins_real,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "What the accelerometer of the present estimate reads, and the derivatives by p."]
+    #[doc = "\\param[out] jacobian  [8], or a null pointer. \\return the reading."]
+    pub fn ins_accelfit_predict(self_: *const ins_accelfit_t, motion: *const ins_accelfit_motion_t, jacobian: *mut ins_real) -> ins_real;
+}
+extern "C" {
+    #[doc = "One measurement. \\return INS_OK; INS_E_RANGE for NaN or infinity, and then self is unchanged."]
+    pub fn ins_accelfit_add(self_: *mut ins_accelfit_t, motion: *const ins_accelfit_motion_t, reading: ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Ends a pass: moves p by the least-squares step and begins the next pass, without rows."]
+    #[doc = "\\param[out] largest  largest component of the step, in its own unit."]
+    #[doc = "\\return INS_OK; INS_E_STATE, and self unchanged, while the rows seen do not fix all eight parameters."]
+    pub fn ins_accelfit_step(self_: *mut ins_accelfit_t, largest: *mut ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Standard deviations of p by the rows of this pass (before ins_accelfit_step)."]
+    #[doc = "\\param[in] sigma  of one reading. \\param[out] deviation  [8]. \\return as ins_accelfit_step; INS_E_RANGE unless sigma >= 0."]
+    pub fn ins_accelfit_deviation(self_: *const ins_accelfit_t, sigma: ins_real, deviation: *mut ins_real) -> ins_status_t;
+}
 #[doc = "Mean of three channels: a gyro's null in codes, or a specific force. A null is a fractional number: rounded to a code it is up to"]
 #[doc = "half a code wrong, 6.3 deg/min with the 12-bit gyros of the thesis."]
 #[repr(C)]
@@ -200,7 +273,7 @@ pub struct ins_innovation_t {
 extern "C" {
     #[doc = "x = Phi x and P = Phi P Phi' + Q."]
     #[doc = "\\param[in,out] x  [n], or 0: the caller has moved it by its own model. \\param[in,out] P  [n n] symmetric."]
-    #[doc = "\\param[in] Phi, Q  [n n]. \\param work  [INS_KALMAN_WORK(n)]."]
+    #[doc = "\\param[in] Phi  [n n]. \\param[in] Q  [n n]. \\param work  [INS_KALMAN_WORK(n)]."]
     pub fn ins_kalman_predict(
         n: ::core::ffi::c_uint,
         x: *mut ins_real,
@@ -308,8 +381,9 @@ impl Default for ins_dr_ekf_t {
     }
 }
 extern "C" {
-    #[doc = "\\param[in] x, var  [6] start and its variances. \\return INS_E_RANGE: dt, tau, r or v_zero is not positive, or sigma, var, gate or"]
-    #[doc = "v_min - v_zero is negative, or one is not a number."]
+    #[doc = "\\param[in] x  [6] start. \\param[in] var  [6] its variances."]
+    #[doc = "\\return INS_E_RANGE: dt, tau, r or v_zero is not positive, or sigma, var, gate or v_min - v_zero is negative, or one is not a"]
+    #[doc = "number."]
     pub fn ins_dr_ekf_init(
         self_: *mut ins_dr_ekf_t,
         cfg: *const ins_dr_ekf_config_t,
@@ -676,6 +750,7 @@ pub struct ins_hs_board_t {
     pub given_up: u16,
 }
 extern "C" {
+    #[doc = "Nothing on its way, counters 0. \\return INS_OK; INS_E_RANGE for a cfg that ins_hs_config_t does not allow."]
     pub fn ins_hs_board_init(self_: *mut ins_hs_board_t, cfg: *const ins_hs_config_t) -> ins_status_t;
 }
 extern "C" {
@@ -736,6 +811,7 @@ pub struct ins_hs_host_t {
     pub stray: u32,
 }
 extern "C" {
+    #[doc = "In idle, counters 0. \\return as ins_hs_board_init()."]
     pub fn ins_hs_host_init(self_: *mut ins_hs_host_t, cfg: *const ins_hs_config_t) -> ins_status_t;
 }
 extern "C" {
@@ -785,19 +861,23 @@ extern "C" {
     pub fn ins_link_board_init(self_: *mut ins_link_board_t, cfg: *const ins_hs_config_t) -> ins_status_t;
 }
 extern "C" {
-    #[doc = "As the functions of the same names in ins/handshake.h."]
+    #[doc = "As ins_hs_board_offer()."]
     pub fn ins_link_board_offer(self_: *mut ins_link_board_t, block: *const ins_octet_t, seq: uint_least8_t, now: u16) -> ins_status_t;
 }
 extern "C" {
+    #[doc = "As ins_hs_board_busy()."]
     pub fn ins_link_board_busy(self_: *const ins_link_board_t) -> uint_least8_t;
 }
 extern "C" {
+    #[doc = "As ins_hs_board_tx()."]
     pub fn ins_link_board_tx(self_: *mut ins_link_board_t, now: u16) -> i16;
 }
 extern "C" {
+    #[doc = "As ins_hs_board_rx()."]
     pub fn ins_link_board_rx(self_: *mut ins_link_board_t, octet: ins_octet_t, now: u16);
 }
 extern "C" {
+    #[doc = "As ins_hs_board_tick()."]
     pub fn ins_link_board_tick(self_: *mut ins_link_board_t, now: u16);
 }
 #[doc = "Host side. hs's block, seq, gap and counters are valid for both forms."]
@@ -811,12 +891,15 @@ pub struct ins_link_host_t {
     pub crc: u16,
 }
 extern "C" {
+    #[doc = "As ins_hs_host_init(), and INS_E_RANGE for a block_len above INS_LINK_BLOCK_MAX."]
     pub fn ins_link_host_init(self_: *mut ins_link_host_t, cfg: *const ins_hs_config_t) -> ins_status_t;
 }
 extern "C" {
+    #[doc = "As ins_hs_host_rx(), for either form."]
     pub fn ins_link_host_rx(self_: *mut ins_link_host_t, octet: ins_octet_t, now: u16, reply: *mut i16) -> ::core::ffi::c_int;
 }
 extern "C" {
+    #[doc = "As ins_hs_host_tick()."]
     pub fn ins_link_host_tick(self_: *mut ins_link_host_t, now: u16);
 }
 #[repr(C)]
@@ -913,6 +996,7 @@ impl Default for ins_nmea_t {
     }
 }
 extern "C" {
+    #[doc = "Nothing seen yet, all counters 0."]
     pub fn ins_nmea_init(self_: *mut ins_nmea_t);
 }
 extern "C" {
@@ -971,14 +1055,16 @@ extern "C" {
     pub fn ins_q31_init(self_: *mut ins_q31_t, q_nb: *const i32) -> ins_status_t;
 }
 extern "C" {
-    #[doc = "\\param[in] dtheta_b  [3] Q31 [rad], |dtheta| <= 0.5."]
+    #[doc = "Turn by one increment. \\param[in] dtheta_b  [3] Q31 [rad], |dtheta| <= 0.5."]
     #[doc = "\\return INS_OK; INS_S_START for the first two; INS_E_RANGE for a larger one, and then self is unchanged."]
     pub fn ins_q31_step(self_: *mut ins_q31_t, dtheta_b: *const i32) -> ins_status_t;
 }
 extern "C" {
+    #[doc = "As ins_q31_init(); normalised to 62 places."]
     pub fn ins_q31w_init(self_: *mut ins_q31w_t, q_nb: *const i32) -> ins_status_t;
 }
 extern "C" {
+    #[doc = "As ins_q31_step()."]
     pub fn ins_q31w_step(self_: *mut ins_q31w_t, dtheta_b: *const i32) -> ins_status_t;
 }
 extern "C" {
@@ -1011,7 +1097,7 @@ extern "C" {
     pub fn ins_quat_from_rotvec(phi: *const ins_real, q: *mut ins_real) -> ins_status_t;
 }
 extern "C" {
-    #[doc = "Uses libm's sin and cos."]
+    #[doc = "\\param[in] euler  [3] roll, pitch, yaw [rad]. \\param[out] q_nb  [4]. Uses libm's sin and cos."]
     pub fn ins_quat_from_euler(euler: *const ins_real, q_nb: *mut ins_real);
 }
 extern "C" {
@@ -1020,6 +1106,7 @@ extern "C" {
     pub fn ins_quat_to_euler(q_nb: *const ins_real, euler: *mut ins_real);
 }
 extern "C" {
+    #[doc = "\\param[in] q_nb  [4] of unit length. \\param[out] C_nb  [9] row-major, v_n = C_nb v_b."]
     pub fn ins_quat_to_dcm(q_nb: *const ins_real, C_nb: *mut ins_real);
 }
 extern "C" {
@@ -1184,7 +1271,7 @@ extern "C" {
     ) -> ins_status_t;
 }
 extern "C" {
-    #[doc = "One instant, for a known rate. \\param[in] readings  [count]. \\param[out] wd_ib_b, f_b  [3] [rad/s^2], [m/s^2]."]
+    #[doc = "One instant, for a known rate. \\param[in] readings  [count]. \\param[out] wd_ib_b  [3] [rad/s^2]. \\param[out] f_b  [3] [m/s^2]."]
     pub fn ins_sixacc_resolve(
         self_: *const ins_sixacc_t,
         readings: *const ins_real,
@@ -1202,16 +1289,25 @@ extern "C" {
 #[doc = "Linear map of accelerometers from readings in known attitudes: P = map[0] + map[1..3] . a, by least squares on [1, a], taken in"]
 #[doc = "row by row with Givens rotations (no normal equations: float keeps its digits). The memory is the caller's, whatever the rows."]
 #[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
+#[derive(Debug, Copy, Clone)]
 pub struct ins_linfit_t {
     #[doc = "accelerometers"]
     pub count: uint_least8_t,
     #[doc = "upper triangle"]
-    pub R: [[ins_real; 4usize]; 4usize],
+    pub R: [ins_real; 16usize],
     #[doc = "right-hand sides"]
-    pub z: [[ins_real; 4usize]; 12usize],
+    pub z: [ins_real; 48usize],
     #[doc = "sum of squared residuals"]
     pub residual2: [ins_real; 12usize],
+}
+impl Default for ins_linfit_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
 }
 extern "C" {
     #[doc = "\\return INS_OK; INS_E_RANGE unless 1 <= count <= INS_SIXACC_MAX."]
@@ -1252,8 +1348,6 @@ pub struct ins_strapdown_t {
     pub half_dv: [ins_real; 3usize],
     #[doc = "and of latitude [rad]"]
     pub half_dlat: ins_real,
-    #[doc = "and of height [m]"]
-    pub half_dh: ins_real,
 }
 extern "C" {
     #[doc = "\\return INS_OK; INS_E_RANGE for what ins_attitude_init refuses, NaN, a period not in (0, INS_STRAPDOWN_PERIOD_MAX], a speed above INS_STRAPDOWN_SPEED_MAX, |height| > 1e6 m,"]
@@ -1302,7 +1396,7 @@ pub struct ins_thesis_t {
 }
 extern "C" {
     #[doc = "P of (2-15)..(2-19): the quaternion of one interval, not normalised (|P|^2 = 1 - |theta|^4 / 192 + ...). Any input."]
-    #[doc = "\\param[in] theta_b, prev_b  [3] increments of the interval and of the one before [rad]. \\param[out] p  [4]"]
+    #[doc = "\\param[in] theta_b  [3] increment of the interval, \\param[in] prev_b  [3] of the one before [rad]. \\param[out] p  [4]"]
     pub fn ins_thesis_p(theta_b: *const ins_real, prev_b: *const ins_real, p: *mut ins_real);
 }
 extern "C" {
@@ -1405,11 +1499,12 @@ extern "C" {
     pub fn ins_tm_inverse(self_: *const ins_tm_t, en: *const ins_real, lat_lon: *mut ins_real) -> ins_status_t;
 }
 extern "C" {
-    #[doc = "The series of a 2009 thesis on a GPS-enabled IMU, equations 5.6 to 5.9, corrected (docs/geodesy.md), for comparison with its results."]
-    #[doc = "Forward within 1.3 degrees of the central meridian: 1e-7 m; inverse 1e-4 m. \\return as ins_tm_forward, ins_tm_inverse."]
+    #[doc = "The series of a 2009 thesis on a GPS-enabled IMU, equations 5.6 and 5.7, corrected (docs/geodesy.md), for comparison with its results."]
+    #[doc = "Forward within 1.3 degrees of the central meridian: 1e-7 m; inverse 1e-4 m. \\return as ins_tm_forward()."]
     pub fn ins_tm_thesis_forward(self_: *const ins_tm_t, lat: ins_real, lon: ins_real, en: *mut ins_real) -> ins_status_t;
 }
 extern "C" {
+    #[doc = "As ins_tm_inverse(), by equations 5.8 and 5.9."]
     pub fn ins_tm_thesis_inverse(self_: *const ins_tm_t, en: *const ins_real, lat_lon: *mut ins_real) -> ins_status_t;
 }
 pub const INS_UNICYCLE_EAST: _bindgen_ty_11 = 0;
@@ -1455,7 +1550,7 @@ impl Default for ins_unicycle_t {
     }
 }
 extern "C" {
-    #[doc = "\\param[in] x, var  [6] start and its variances; the heading is wrapped."]
+    #[doc = "\\param[in] x  [6] start; the heading is wrapped. \\param[in] var  [6] its variances."]
     #[doc = "\\return INS_E_RANGE: r not positive, another figure negative, not a number, or the heading beyond +-1000 rad."]
     pub fn ins_unicycle_init(
         self_: *mut ins_unicycle_t,
@@ -1485,7 +1580,8 @@ extern "C" {
     pub fn ins_version() -> ::core::ffi::c_long;
 }
 extern "C" {
-    #[doc = "\\return INS_OK, or INS_E_ABI: the program was compiled with the headers of another version, or for another ins_real."]
+    #[doc = "\\return INS_OK, or INS_E_ABI: the program was compiled with the headers of another major or minor version, or for another"]
+    #[doc = "ins_real. Patch releases go together."]
     pub fn ins_abi_check(version: ::core::ffi::c_long, real_size: ::core::ffi::c_uint) -> ins_status_t;
 }
 extern "C" {
