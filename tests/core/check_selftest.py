@@ -28,8 +28,8 @@ FAULTS = [
     ("fiter.c", "{3, 13, -5, 1}", "{3, 13, -4, 1}", FITER),
     ("fiter.c", "2 * k", "k", FITER),
     ("rates.c", "{9, 19, -5, 1}", "{9, 19, 5, 1}", RATES),
-    ("q31.c", "phi[i] += theta[i]", "phi[i] = theta[i]", FIXED),
-    ("q31.c", "q31_mac(0, w[1], theta[2]), -w[2]", "q31_mac(0, w[1], theta[2]), w[2]", FIXED),
+    ("q31_long_internal.h", "theta[0] + q31_high(y, theta[2]) - q31_high(z, theta[1])", "theta[0]", FIXED),
+    ("q31_long_internal.h", "- q31_high(z, theta[1])", "+ q31_high(z, theta[1])", FIXED),
 ]
 
 

@@ -6,8 +6,9 @@
 ///     for (;;) { ins_q31_step(&a, dtheta_b); use(a.q_nb); } // Q31: 1 rad is 1 << 31
 ///
 /// INS_CONING_HIST2_OPT (ins/coning.h) with renormalisation, the same bits on every machine and in both builds of the core.
-/// ins_q31_t holds q in 32 bits, ins_q31w_t in 64 for a quarter of the error. Any increment up to 0.5 rad; sample faster beyond.
-/// Cost: 41 products of 32 x 32 bits, no division, no branch that depends on the data. docs/q31.md has the error and the format.
+/// ins_q31_t holds q in 32 bits, ins_q31w_t in 64 for half the error or less. Any increment up to 0.5 rad; sample faster beyond.
+/// Cost: 39 products of 32 x 32 bits, no division, no branch that depends on the data; an ARMv6-M forms each of four of 16 bits, with
+/// the same results. docs/q31.md has the error, the format and the instructions of each core.
 /// SPDX-License-Identifier: MIT
 #ifndef INS_Q31_H_INCLUDED
 #define INS_Q31_H_INCLUDED
@@ -36,8 +37,9 @@ typedef struct ins_q31w_t
 
 /// \param[in] q_nb  [4] Q30. \return INS_OK; INS_E_RANGE for a norm that is not within 1e-3 of 1 (it is normalised).
 INS_API ins_status_t ins_q31_init(ins_q31_t* self, const int32_t q_nb[4]);
-/// Turn by one increment. \param[in] dtheta_b  [3] Q31 [rad], |dtheta| <= 0.5.
-/// \return INS_OK; INS_S_START for the first two; INS_E_RANGE for a larger one, and then self is unchanged.
+/// Turn by one increment. \param[in] dtheta_b  [3] Q31 [rad], |dtheta| < 0.5.
+/// \return INS_OK; INS_S_START for the first two; INS_E_RANGE for one that turns by 0.5 or more, its coning
+/// term included, and then self is unchanged.
 INS_API ins_status_t ins_q31_step(ins_q31_t* self, const int32_t dtheta_b[3]);
 
 /// As ins_q31_init(); normalised to 62 places.
