@@ -7,10 +7,10 @@
 #define INS_Q31_INTERNAL_H_INCLUDED
 #include "ins/q31.h"
 
-/// 1: products of 32 x 32 bits are formed of 16-bit ones, for cores without a long multiply (Thumb-1: ARMv6-M, ARMv8-M Baseline).
+/// 1: products of 32 x 32 bits are formed of 16-bit ones, for cores without a long multiply (Thumb-1: ARMv6-M, ARMv8-M Baseline; 8051).
 /// 0: one instruction each. The same results, and the same increments refused.
 #ifndef Q31_SPLIT
-#if defined(__thumb__) && !defined(__thumb2__)
+#if (defined(__thumb__) && !defined(__thumb2__)) || defined(__SDCC)
 #define Q31_SPLIT 1
 #else
 #define Q31_SPLIT 0
