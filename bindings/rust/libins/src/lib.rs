@@ -24,6 +24,7 @@
 #![no_std]
 #![warn(missing_docs, missing_debug_implementations)]
 
+pub mod accelfit;
 pub mod align;
 pub mod attitude;
 pub mod batch;

@@ -2,9 +2,10 @@
 //! SPDX-License-Identifier: MIT
 use crate::json::Json;
 use crate::{load, real, tol, wide, Worst};
+use libins::accelfit::{AccelFit, Motion};
 use libins::coning::Form;
 use libins::sculling::{self, Increment};
-use libins::sixacc::{self, Accel, LinFit, SixAcc};
+use libins::sixacc::{self, LinFit, SixAcc};
 use libins::tm::Tm;
 use libins::{geodesy, quat, Error, Real};
 use std::f64::consts::PI;
@@ -12,7 +13,9 @@ use std::f64::consts::PI;
 const TOL_DV_REL: f64 = tol(1e-12, 3e-7);
 const TOL_SIXACC_REL: f64 = tol(1e-12, 1e-6); // of the largest reading, and of it over the arm
 const TOL_MAP: f64 = tol(1e-12, 2e-6);
-const TOL_CALIBRATED: f64 = tol(1e-10, 1e-4); // rad/s^2 and m/s^2, from readings of up to 60 m/s^2 on arms of 0.1 m
+const TOL_CLEAN: f64 = tol(1e-10, 2e-5);
+const TOL_NOISY: f64 = tol(1e-7, 2e-5);
+const TOL_SD_REL: f64 = tol(1e-5, 1e-3);
 const TOL_ECEF_M: f64 = tol(1e-8, 6.0);
 const TOL_ANGLE_RAD: f64 = tol(1e-13, 5e-7);
 const TOL_TM_M: f64 = tol(1e-6, 2.0);
@@ -22,14 +25,6 @@ const RAD: f64 = PI / 180.0;
 
 fn norm(v: [f64; 3]) -> f64 {
     v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 fn reals(x: &[f64]) -> Vec<Real> {
@@ -118,48 +113,53 @@ fn calib_linear_maps() {
     worst.within(TOL_MAP, "linear map");
 }
 
-/// The file's model has a quadratic term and is estimated by Levenberg-Marquardt, which is not in the core. With the quadratic term
-/// taken off, its readings are those of the core's accelerometer: the fit must find its map, and six resolved must give the motion.
 #[test]
-fn calib_full_without_the_quadratic_term() {
+fn calib_full_by_least_squares() {
+    const PASSES: usize = 20;
     let file = load("calib_full.json");
-    let (mut maps, mut motions) = (Worst::default(), Worst::default());
-    let (mut accels, mut columns) = (Vec::new(), Vec::new());
-    let rows: Vec<[[f64; 3]; 3]> = file["meas"]
-        .arrays::<9>()
-        .iter()
-        .map(|m| [[m[0], m[1], m[2]].map(|x| x * file["g"].number()), [m[3], m[4], m[5]], [m[6], m[7], m[8]]])
-        .collect();
+    let (mut readings, mut clean, mut noisy, mut deviations) = (Worst::default(), Worst::default(), Worst::default(), Worst::default());
+    let motion = |m: &[f64; 9]| Motion {
+        f_b: real([m[0], m[1], m[2]].map(|up| up * file["g"].number())),
+        w_ib_b: real([m[3], m[4], m[5]]),
+        wd_ib_b: real([m[6], m[7], m[8]]),
+    };
+    let motions: Vec<Motion> = file["meas"].arrays().iter().map(motion).collect();
     for a in file["acc"].list() {
-        let [b, sf, m1, m2, k2, rx, ry, rz] = a["p_true"].array();
-        let (u0, e1, e2): ([f64; 3], [f64; 3], [f64; 3]) = (a["u0"].array(), a["e1"].array(), a["e2"].array());
-        let u: [f64; 3] = std::array::from_fn(|i| u0[i] + m1 * e1[i] + m2 * e2[i]);
-        let axis = u.map(|x| sf * x / norm(u));
-        let mut fit = LinFit::new(1).unwrap();
-        let mut column = Vec::new();
-        for ([f, w, wd], y) in rows.iter().zip(a["y_clean"].flat()) {
-            let (tangential, radial) = (cross(*wd, [rx, ry, rz]), cross(*w, cross(*w, [rx, ry, rz])));
-            let x = dot(std::array::from_fn(|i| f[i] + tangential[i] + radial[i]), axis) / sf;
-            let linear = y - sf * k2 * x * x;
-            column.push(linear);
-            if norm(*w) + norm(*wd) == 0.0 {
-                fit.add(&real(*f), &[linear as Real]).unwrap();
-            }
+        let start = |key: &str| {
+            let axes = [real(a["u0"].array()), real(a["e1"].array()), real(a["e2"].array())];
+            AccelFit::new(&axes[0], &axes[1], &axes[2], &real(a[key].array())).unwrap()
+        };
+        let pass = |fit: &mut AccelFit, key: &str| {
+            motions.iter().zip(a[key].flat()).for_each(|(motion, y)| fit.add(motion, y as Real).unwrap());
+        };
+        let solved = |key: &str| {
+            let mut fit = start("p0");
+            assert_eq!(fit.step(), Err(Error::State), "nothing was measured");
+            let settled = (0..PASSES).any(|_| {
+                pass(&mut fit, key);
+                fit.step().unwrap() < tol(1e-12, 1e-5) as Real
+            });
+            assert!(settled, "no end in {PASSES} passes");
+            fit
+        };
+        let truth = start("p_true");
+        let predicted: Vec<f64> = motions.iter().flat_map(|motion| wide(&[truth.predict(motion)])).collect();
+        readings.take_all(&predicted, &a["y_clean"].flat(), 1.0, "reading");
+        clean.take_all(&wide(solved("y_clean").p()), &a["p_true"].flat(), 1.0, "without noise");
+        let mut fit = solved("y_noisy");
+        noisy.take_all(&wide(fit.p()), &a["p_est_noisy"].flat(), 1.0, "with noise");
+        pass(&mut fit, "y_noisy");
+        let cost = a["cost_noisy"].number();
+        assert!((wide(&[fit.residual2()])[0] / cost - 1.0).abs() < tol(1e-9, 2e-2));
+        let sigma = 1e-3 * a["p_true"][1].number(); // the file's noise: 1 mm/s^2
+        for (got, want) in wide(&fit.deviation(sigma as Real).unwrap()).iter().zip(a["sd"].flat()) {
+            deviations.take(*got, want, want, "deviation");
         }
-        let map = [sf * b, axis[0], axis[1], axis[2]];
-        maps.take_all(&wide(&fit.solve(0).unwrap()), &map, 1.0, "map");
-        accels.push(Accel { bias: map[0] as Real, axis: real(axis), r: real([rx, ry, rz]) });
-        columns.push(column);
     }
-    let six = SixAcc::new(&accels, 0.01).unwrap();
-    for (k, [f, w, wd]) in rows.iter().enumerate() {
-        let readings: Vec<f64> = columns.iter().map(|column| column[k]).collect();
-        let (got_wd, got_f) = six.resolve(&reals(&readings), &real(*w)).unwrap();
-        motions.take_all(&wide(&got_wd), wd, 1.0, "wd");
-        motions.take_all(&wide(&got_f), f, 1.0, "f");
-    }
-    maps.within(TOL_MAP, "calib_full, linear map at rest");
-    motions.within(TOL_CALIBRATED, "calib_full, motion from six calibrated accelerometers");
+    readings.within(tol(1e-13, 1e-5), "calib_full readings [m/s^2]");
+    clean.within(TOL_CLEAN, "calib_full parameters without noise");
+    noisy.within(TOL_NOISY, "calib_full parameters with noise");
+    deviations.within(TOL_SD_REL, "calib_full standard deviations, relative");
 }
 
 #[test]
