@@ -1055,8 +1055,9 @@ extern "C" {
     pub fn ins_q31_init(self_: *mut ins_q31_t, q_nb: *const i32) -> ins_status_t;
 }
 extern "C" {
-    #[doc = "Turn by one increment. \\param[in] dtheta_b  [3] Q31 [rad], |dtheta| <= 0.5."]
-    #[doc = "\\return INS_OK; INS_S_START for the first two; INS_E_RANGE for a larger one, and then self is unchanged."]
+    #[doc = "Turn by one increment. \\param[in] dtheta_b  [3] Q31 [rad], |dtheta| < 0.5."]
+    #[doc = "\\return INS_OK; INS_S_START for the first two; INS_E_RANGE for one that turns by 0.5 or more, its coning"]
+    #[doc = "term included, and then self is unchanged."]
     pub fn ins_q31_step(self_: *mut ins_q31_t, dtheta_b: *const i32) -> ins_status_t;
 }
 extern "C" {
