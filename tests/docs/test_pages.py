@@ -62,3 +62,9 @@ def test_every_link_of_a_page_leads_somewhere() -> None:
         if "://" not in target and not (page.parent / target).exists()
     ]
     assert dead == []
+
+
+def test_every_page_is_listed_once() -> None:
+    listed = re.findall(r"^([\w/]+)$", (ROOT / "docs/index.md").read_text(encoding="utf-8"), re.MULTILINE)
+    present = [str(page.relative_to(ROOT / "docs").with_suffix("")) for page in pages() if page.parent != ROOT]
+    assert sorted([*listed, "index"]) == sorted(present), "put the page in a toctree of docs/index.md"
