@@ -58,6 +58,7 @@ TEST(batch, same_bits_as_the_scalar_step)
     for (const size_t n : {size_t(1), size_t(15), size_t(16), size_t(17), size_t(32), size_t(256)})
     {
         compare(n, 0.2, 0.2);
+        compare(n, 0.01, 0.01); // small enough for the check that looks at sums
     }
 }
 
@@ -91,4 +92,33 @@ TEST(batch, refuses_and_changes_nothing)
             EXPECT_EQ(b.count, 0);
         }
     }
+}
+
+TEST(batch, refuses_under_way_wherever_the_bad_one_stands)
+{
+    const size_t n = 45; // whole vectors, and a rest
+    std::vector<ins_real> q0(4 * n, 0);
+    std::fill(q0.begin(), q0.begin() + n, static_cast<ins_real>(1));
+    std::vector<ins_real> state(INS_BATCH_ROWS * n);
+    ins_batch_t b;
+    ASSERT_EQ(ins_batch_init(&b, n, state.data(), q0.data()), INS_OK);
+    const std::vector<ins_real> calm(3 * n, INS_C(0.01));
+    for (int k = 0; k < 4; k++)
+    {
+        ASSERT_GE(ins_batch_step(&b, state.data(), calm.data()), INS_OK);
+    }
+    const auto before = state;
+    const ins_batch_t self = b;
+    for (size_t at = 0; at < 3 * n; at++)
+    {
+        for (const ins_real bad : {static_cast<ins_real>(std::nan("")), static_cast<ins_real>(-INFINITY), INS_C(3.2)})
+        {
+            std::vector<ins_real> theta = calm;
+            theta[at] = bad;
+            ASSERT_EQ(ins_batch_step(&b, state.data(), theta.data()), INS_E_RANGE) << at;
+            ASSERT_EQ(state, before) << at;
+            ASSERT_EQ(std::memcmp(&self, &b, sizeof b), 0) << at;
+        }
+    }
+    EXPECT_EQ(ins_batch_step(&b, state.data(), calm.data()), INS_OK);
 }

@@ -3,21 +3,11 @@
 /// SPDX-License-Identifier: MIT
 #include "ins/batch.h"
 #include "attitude_internal.h"
+#include "batch_internal.h"
 #include "ins/ins_math.h"
 
-#define STEP_MAX INS_C(3.14159265358979324) ///< as in attitude_any.c
-#define SMALL    INS_C(0.25) ///< three components and their coning term: |phi| <= 0.48, within HALF_U_MAX
-
-/// First row of a set of three.
-static size_t newest_row(const ins_batch_t* self)
-{
-    return self->newest ? 7 : 4;
-}
-
-static size_t oldest_row(const ins_batch_t* self)
-{
-    return self->newest ? 4 : 7;
-}
+#define BATCH_LANES 8  ///< the vectors of today's machines divide it
+#define BATCH_SUM   12 ///< values compared at once
 
 ins_status_t ins_batch_init(ins_batch_t* self, size_t n, ins_real* state, const ins_real* q_nb)
 {
@@ -37,101 +27,75 @@ ins_status_t ins_batch_init(ins_batch_t* self, size_t n, ins_real* state, const 
     }
     if (status == INS_OK)
     {
-        const ins_batch_t start = {n, 0, 0, 0};
+        const ins_batch_t start = {n, 0, 0, 4};
         *self = start;
     }
     return status;
 }
 
-/// Trajectory i by the scalar step, for start-up and large increments. The new increment replaces the oldest.
-static void step_one(const ins_batch_t* self, ins_real* state, const ins_real* dtheta_b, size_t i)
-{
-    const size_t n = self->n;
-    ins_attitude_t one = {{0}, {{0}}, INS_CONING_HIST2_OPT, self->count};
-    ins_real theta[3];
-    for (size_t row = 0; row < 4; row++)
-    {
-        one.q_nb[row] = state[row * n + i];
-    }
-    for (size_t axis = 0; axis < 3; axis++)
-    {
-        one.prev[0][axis] = state[(newest_row(self) + axis) * n + i];
-        one.prev[1][axis] = state[(oldest_row(self) + axis) * n + i];
-        theta[axis] = dtheta_b[axis * n + i];
-        state[(oldest_row(self) + axis) * n + i] = theta[axis];
-    }
-    (void)ins_attitude_step(&one, theta);
-    for (size_t row = 0; row < 4; row++)
-    {
-        state[row * n + i] = one.q_nb[row];
-    }
-}
-
-/// All trajectories in place, where none needs the range reduction of the scalar step.
-static void step_all(size_t n, const ins_real* restrict theta, const ins_real* restrict newest,
-                     ins_real* restrict oldest, ins_real* restrict q)
+/// The first n trajectories in place, where none needs the range reduction of the scalar step; rows are `pitch` apart. A pointer each
+/// written row: compilers need not ask at run time whether they overlap.
+static void step_wide(size_t n, size_t pitch, const ins_real* theta, const ins_real* newest, ins_real* restrict x2,
+                      ins_real* restrict y2, ins_real* restrict z2, ins_real* restrict w, ins_real* restrict x,
+                      ins_real* restrict y, ins_real* restrict z)
 {
     static const ins_coning_row_t row = CONING_ROW_HIST2_OPT;
     for (size_t i = 0; i < n; i++)
     {
-        const ins_real t[3] = {theta[i], theta[n + i], theta[2 * n + i]};
-        const ins_real t1[3] = {newest[i], newest[n + i], newest[2 * n + i]};
-        const ins_real t2[3] = {oldest[i], oldest[n + i], oldest[2 * n + i]};
-        const ins_real p[4] = {q[i], q[n + i], q[2 * n + i], q[3 * n + i]};
+        const ins_real t[3] = {theta[i], theta[pitch + i], theta[2 * pitch + i]};
+        const ins_real t1[3] = {newest[i], newest[pitch + i], newest[2 * pitch + i]};
+        const ins_real t2[3] = {x2[i], y2[i], z2[i]};
+        const ins_real p[4] = {w[i], x[i], y[i], z[i]};
         ins_real phi[3] = {t[0], t[1], t[2]};
         coning_add(&row, t, t1, t2, t2, phi);
         const ins_real u = ins_vec_dot(phi, phi);
         const ins_real s = half_sinc(u);
-        const ins_real c = half_cos_and_half(u);
-        const ins_real dq[4] = {c - INS_C(0.5) * quat_norm2(p), s * phi[0], s * phi[1], s * phi[2]};
-        ins_real product[4];
-        quat_mul(p, dq, product);
-        q[i] = product[0];
-        q[n + i] = product[1];
-        q[2 * n + i] = product[2];
-        q[3 * n + i] = product[3];
-        oldest[i] = t[0];
-        oldest[n + i] = t[1];
-        oldest[2 * n + i] = t[2];
+        const ins_real dq[4] = {half_cos_and_half(u) - INS_C(0.5) * quat_norm2(p), s * phi[0], s * phi[1], s * phi[2]};
+        // quat_mul without its negations, which are operations of their own here.
+        w[i] = p[0] * dq[0] - (p[2] * dq[2] + p[1] * dq[1] + p[3] * dq[3]);
+        x[i] = p[1] * dq[0] - (p[3] * dq[2] - p[0] * dq[1] - p[2] * dq[3]);
+        y[i] = p[2] * dq[0] + (p[0] * dq[2] + p[3] * dq[1] - p[1] * dq[3]);
+        z[i] = p[3] * dq[0] + (p[1] * dq[2] - p[2] * dq[1] + p[0] * dq[3]);
+        x2[i] = t[0];
+        y2[i] = t[1];
+        z2[i] = t[2];
     }
 }
 
-/// 1 if a component is not within the limit. It does not stop at the first: so this is vector code too.
-static int any_beyond(const ins_real* v, size_t length, ins_real limit)
+/// 0 if sums of magnitudes, far cheaper than each alone, prove that every one of the 3 n values is small.
+static int may_be_large(const ins_real* v, size_t n)
 {
-    int beyond = 0;
-    for (size_t i = 0; i < length; i++)
+    const size_t part = n / (BATCH_SUM / 3) & ~(size_t)(BATCH_LANES - 1);
+    int small = 1;
+    for (size_t i = 0; i < part; i++)
     {
-        beyond |= !(ins_fabs(v[i]) <= limit);
+        ins_real sum = ins_fabs(v[i]);
+        for (size_t k = 1; k < BATCH_SUM; k++)
+        {
+            sum += ins_fabs(v[k * part + i]);
+        }
+        small = sum <= BATCH_SMALL ? small : 0;
     }
-    return beyond;
+    const size_t rest = 3 * n - BATCH_SUM * part;
+    return small == 0 || (rest > 0 && ins_batch_beyond(v + BATCH_SUM * part, rest, BATCH_SMALL));
 }
 
 ins_status_t ins_batch_step(ins_batch_t* self, ins_real* state, const ins_real* dtheta_b)
 {
     const size_t n = self->n;
-    const int large = any_beyond(dtheta_b, 3 * n, SMALL);
-    if (large && any_beyond(dtheta_b, 3 * n, STEP_MAX))
+    if (self->count != 2 || self->large != 0 ||
+        (may_be_large(dtheta_b, n) && ins_batch_beyond(dtheta_b, 3 * n, BATCH_SMALL)))
     {
-        return INS_E_RANGE;
+        return ins_batch_step_any(self, state, dtheta_b);
     }
-    self->large = (uint_least8_t)((self->large << 1 | large) & 7);
-    if (self->count == 2 && self->large == 0)
+    const size_t whole = n & ~(size_t)(BATCH_LANES - 1);
+    ins_real* old = state + batch_oldest(self) * n;
+    step_wide(whole, n, dtheta_b, state + self->newest * n, old, old + n, old + 2 * n, state, state + n, state + 2 * n,
+              state + 3 * n);
+    if (whole != n)
     {
-        step_all(n, dtheta_b, state + newest_row(self) * n, state + oldest_row(self) * n, state);
+        ins_batch_one_by_one(self, state, dtheta_b, whole);
     }
-    else
-    {
-        for (size_t i = 0; i < n; i++)
-        {
-            step_one(self, state, dtheta_b, i);
-        }
-    }
-    self->newest = (uint_least8_t)!self->newest;
-    if (self->count == 2)
-    {
-        return INS_OK;
-    }
-    self->count++;
-    return INS_S_START;
+    self->newest = batch_oldest(self);
+    return INS_OK;
 }

@@ -24,8 +24,8 @@ typedef struct ins_batch_t
 {
     size_t n;
     uint_least8_t count;  ///< previous increments held
-    uint_least8_t newest; ///< which of the two sets of rows is the newest increment, 0 or 1
-    uint_least8_t large;  ///< bit k: a component above 0.25 rad k steps ago
+    uint_least8_t large;  ///< bit k: a component above 0.25 rad k + 1 steps ago
+    uint_least8_t newest; ///< first row of the newest increment, 4 or 7
 } ins_batch_t;
 
 /// \param[in] q_nb  [4 * n] by rows, scalar first. \param[out] state  [INS_BATCH_ROWS * n]
