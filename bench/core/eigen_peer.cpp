@@ -24,6 +24,20 @@ template <typename T> void step(eigen_peer::Attitude<T>& self, const T* dtheta)
     self.theta2 = self.theta1;
     self.theta1 = theta;
 }
+
+void step(eigen_peer::Sculling& self, const double* dtheta, const double* dv)
+{
+    const Eigen::Vector3d t(dtheta[0], dtheta[1], dtheta[2]);
+    const Eigen::Vector3d v(dv[0], dv[1], dv[2]);
+    const Eigen::Vector3d a = 7. / 60 * self.theta1 - 1. / 60 * self.theta2;
+    const Eigen::Vector3d b = 7. / 60 * self.v1 - 1. / 60 * self.v2;
+    self.dv = v + 0.5 * t.cross(v) + a.cross(v) + b.cross(t);
+    self.q = (self.q * turn<double>(t + a.cross(t))).normalized();
+    self.theta2 = self.theta1;
+    self.theta1 = t;
+    self.v2 = self.v1;
+    self.v1 = v;
+}
 } // namespace
 
 extern "C" void eigen_attitude_f64(eigen_peer::Attitude<double>* self, const double* dtheta)
@@ -38,16 +52,7 @@ extern "C" void eigen_attitude_f32(eigen_peer::Attitude<float>* self, const floa
 
 extern "C" void eigen_sculling(eigen_peer::Sculling* self, const double* dtheta, const double* dv)
 {
-    const Eigen::Vector3d t(dtheta[0], dtheta[1], dtheta[2]);
-    const Eigen::Vector3d v(dv[0], dv[1], dv[2]);
-    const Eigen::Vector3d a = 7. / 60 * self->theta1 - 1. / 60 * self->theta2;
-    const Eigen::Vector3d b = 7. / 60 * self->v1 - 1. / 60 * self->v2;
-    self->dv = v + 0.5 * t.cross(v) + a.cross(v) + b.cross(t);
-    self->q = (self->q * turn<double>(t + a.cross(t))).normalized();
-    self->theta2 = self->theta1;
-    self->theta1 = t;
-    self->v2 = self->v1;
-    self->v1 = v;
+    step(*self, dtheta, dv);
 }
 
 extern "C" void eigen_strapdown(eigen_peer::Strapdown* self, const double* dtheta, const double* dv)
@@ -64,7 +69,7 @@ extern "C" void eigen_strapdown(eigen_peer::Strapdown* self, const double* dthet
     const Eigen::Vector3d w_ie(OMEGA * c, 0, -OMEGA * s);
     const Eigen::Vector3d w_en(vm.y() / east, -vm.x() / north, -vm.y() * s / (c * east));
     const Eigen::Quaterniond start = self->sculling.q;
-    eigen_sculling(&self->sculling, dtheta, dv);
+    step(self->sculling, dtheta, dv);
     const Eigen::Vector3d f = start * self->sculling.dv;
     const Eigen::Vector3d zeta = (w_ie + w_en) * T;
     self->change_of_v = f - 0.5 * zeta.cross(f) + T * (Eigen::Vector3d(0, 0, g) - (2 * w_ie + w_en).cross(vm));

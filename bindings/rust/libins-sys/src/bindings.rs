@@ -242,10 +242,10 @@ pub struct ins_batch_t {
     pub n: usize,
     #[doc = "previous increments held"]
     pub count: uint_least8_t,
-    #[doc = "which of the two sets of rows is the newest increment, 0 or 1"]
-    pub newest: uint_least8_t,
-    #[doc = "bit k: a component above 0.25 rad k steps ago"]
+    #[doc = "bit k: a component above 0.25 rad k + 1 steps ago"]
     pub large: uint_least8_t,
+    #[doc = "first row of the newest increment, 4 or 7"]
+    pub newest: uint_least8_t,
 }
 extern "C" {
     #[doc = "\\param[in] q_nb  [4 * n] by rows, scalar first. \\param[out] state  [INS_BATCH_ROWS * n]"]
