@@ -127,7 +127,8 @@ def main() -> int:
     pytest = [sys.executable, "-m", "pytest", "-q", "tests/system/test_link.py"]
     system = subprocess.run(pytest, cwd=ROOT, env=environment)
     mutation = subprocess.run([sys.executable, ROOT / "bench/mutation.py"])
-    return 0 if kept and all(part.returncode == 0 for part in (long, system, mutation)) else 1
+    proof = subprocess.run([sys.executable, ROOT / "tests/proof/prove.py"])
+    return 0 if kept and all(part.returncode == 0 for part in (long, system, mutation, proof)) else 1
 
 
 if __name__ == "__main__":

@@ -66,7 +66,7 @@ int ins_link_host_rx(ins_link_host_t* self, ins_octet_t octet, uint16_t now, int
             const int event = ins_hs_host_rx(hs, octet, now, reply);
             self->extended = event == INS_HS_NOTHING ? self->extended : 0;
             hs->have_seq =
-                event == INS_HS_BLOCK ? hs->cfg.seq : hs->have_seq; // without a number in it the count is lost
+                event == INS_HS_BLOCK ? hs->cfg.seq != 0 : hs->have_seq; // without a number in it the count is lost
             return event;
         }
         hs->since = now;
