@@ -281,14 +281,22 @@ TEST(q31, sums_of_16_bit_products_give_the_long_sums)
             d[k] = q[(k + static_cast<size_t>(i / 64)) % 4] / 1000 * 997;
         }
         ASSERT_EQ(split_form::q31_square4(q), long_form::q31_square4(q)) << q[0] << " " << q[1] << " " << q[2];
-        int64_t sum[4] = {0, 0, 0, 0};
-        for (size_t k = 0; k < 4; k++)
-        {
-            sum[0] = long_form::q31_mac(sum[0], q[k], k == 0 ? d[0] : -d[k]);
-        }
+        const int32_t rows[4][4] = {{d[0], -d[1], -d[2], -d[3]}, // of q d, the product of quaternions
+                                    {d[1], d[0], d[3], -d[2]},
+                                    {d[2], -d[3], d[0], d[1]},
+                                    {d[3], d[2], -d[1], d[0]}};
         int32_t turned[4] = {q[0], q[1], q[2], q[3]};
-        split_form::q31_rotate(turned, d);
-        ASSERT_EQ(turned[0] - q[0], static_cast<int32_t>((sum[0] + INT64_C(0x80000000)) >> 32)) << q[0] << " " << d[0];
+        int32_t change[4] = {d[0], d[1], d[2], d[3]};
+        split_form::q31_rotate(turned, change);
+        for (size_t r = 0; r < 4; r++)
+        {
+            int64_t sum = INT64_C(0x80000000);
+            for (size_t k = 0; k < 4; k++)
+            {
+                sum = long_form::q31_mac(sum, q[k], rows[r][k]);
+            }
+            ASSERT_EQ(turned[r] - q[r], static_cast<int32_t>(sum >> 32)) << r << ": " << q[0] << " " << d[0];
+        }
         const int32_t phi[3] = {d[1], d[2], INT32_MAX / 20 * 11};
         ASSERT_EQ(split_form::q31_square3(phi), long_form::q31_square3(phi));
     }

@@ -27,18 +27,15 @@ ins_status_t ins_q31_init(ins_q31_t* self, const int32_t q_nb[4])
     {
         return INS_E_RANGE;
     }
-    for (int i = 0; i < 4; i++)
-    {
-        self->q_nb[i] = q_nb[i];
-    }
-    for (int i = 0; i < 3; i++)
-    {
-        self->prev[0][i] = 0;
-        self->prev[1][i] = 0;
-    }
+    const q31_vector_t rest = {{0, 0, 0}};
+    *(q31_quaternion_t*)self->q_nb = *(const q31_quaternion_t*)q_nb;
+    *(q31_vector_t*)self->prev[0] = rest;
+    *(q31_vector_t*)self->prev[1] = rest;
     self->count = 0;
-    (void)ins_q31_step(self, self->prev[0]); // the norm's error becomes 3/8 of its square each time: 1e-6, 1e-12
-    (void)ins_q31_step(self, self->prev[0]);
+    do
+    {
+        (void)ins_q31_step(self, self->prev[0]); // the norm's error becomes 3/8 of its square each time: 1e-6, 1e-12
+    } while (self->count < 2);
     self->count = 0;
     return INS_OK;
 }

@@ -97,11 +97,16 @@ static inline int q31_turn(int32_t prev[2][3], const int32_t theta[3], const int
     return 1;
 }
 
-/// Three components, moved as one.
+/// Components moved as one.
 typedef struct q31_vector_t
 {
     int32_t v[3];
 } q31_vector_t;
+
+typedef struct q31_quaternion_t
+{
+    int32_t v[4];
+} q31_quaternion_t;
 
 static inline ins_status_t q31_remember(int32_t prev[2][3], uint_least8_t* count, const int32_t theta[3])
 {
@@ -131,7 +136,7 @@ static inline int q31_is_unit(const int32_t q[4])
         const int32_t h = q[i] >> 16;
         off += (uint32_t)(h * h);
     }
-    return off <= 2 * Q31_NORM2_TOL;
+    return off < 2 * Q31_NORM2_TOL;
 }
 
 /// c is n / d in Qbits to `tight` bits, and fits an int32: a slip in a coefficient, or one too large, does not compile.

@@ -79,45 +79,36 @@ static inline void q31_shorten(int32_t v[3], int32_t s)
     }
 }
 
-/// round(sum of a b / 2^32), a as {high, low} pairs.
-static int32_t q31_row(const int32_t a[8], int32_t b0, int32_t b1, int32_t b2, int32_t b3)
-{
-    int32_t high = 2;   // 2^30; the 2 rounds
-    int32_t middle = 0; // 2^15
-    int32_t low = 0;
-#define Q31_TERM(a_high, a_low, b)                                                                                     \
-    {                                                                                                                  \
-        const int32_t l = q31_low(b);                                                                                  \
-        const int32_t h = ((b)-l) >> 15;                                                                               \
-        high += (a_high)*h;                                                                                            \
-        middle += (a_high)*l;                                                                                          \
-        middle += (a_low)*h;                                                                                           \
-        low += (a_low)*l;                                                                                              \
-    }
-    Q31_TERM(a[0], a[1], b0)
-    Q31_TERM(a[2], a[3], b1)
-    Q31_TERM(a[4], a[5], b2)
-    Q31_TERM(a[6], a[7], b3)
-#undef Q31_TERM
-    return (high + ((middle + (low >> 15)) >> 15)) >> 2;
-}
-
-static inline void q31_rotate(int32_t q[4], const int32_t d[4])
+/// q += round(q d / 2^32), the product of quaternions; d becomes what was added.
+static inline void q31_rotate(int32_t q[4], int32_t d[4])
 {
     const int32_t w = d[0];
     const int32_t x = d[1];
     const int32_t y = d[2];
     const int32_t z = d[3];
-    int32_t half[8];
+    const int32_t rows[4][4] = {{w, -x, -y, -z}, {x, w, z, -y}, {y, -z, w, x}, {z, y, -x, w}};
     for (int i = 0; i < 4; i++)
     {
-        half[2 * i + 1] = q31_low(q[i]);
-        half[2 * i] = (q[i] - half[2 * i + 1]) >> 15;
+        int32_t high = 2;   // 2^30; the 2 rounds
+        int32_t middle = 0; // 2^15
+        int32_t low = 0;
+        for (int j = 0; j < 4; j++)
+        {
+            const int32_t a_low = q31_low(q[j]);
+            const int32_t a_high = (q[j] - a_low) >> 15;
+            const int32_t b_low = q31_low(rows[i][j]);
+            const int32_t b_high = (rows[i][j] - b_low) >> 15;
+            low += a_low * b_low; // this order: the fewest registers with gcc -Os
+            middle += a_low * b_high;
+            high += a_high * b_high;
+            middle += a_high * b_low;
+        }
+        d[i] = (high + ((middle + (low >> 15)) >> 15)) >> 2;
     }
-    q[0] += q31_row(half, w, -x, -y, -z);
-    q[1] += q31_row(half, x, w, z, -y);
-    q[2] += q31_row(half, y, -z, w, x);
-    q[3] += q31_row(half, z, y, -x, w);
+    for (int i = 0; i < 4; i++)
+    {
+        q[i] += d[i];
+    }
 }
 
 #endif // INS_Q31_SPLIT_INTERNAL_H_INCLUDED
