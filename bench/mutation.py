@@ -61,7 +61,7 @@ class Test:
     seconds: float
 
 
-def run(command: list[str], cwd: Path, timeout: float = 120.0) -> subprocess.CompletedProcess[bytes]:
+def run(command: list[str], cwd: Path, timeout: float = 600.0) -> subprocess.CompletedProcess[bytes]:
     return subprocess.run(command, cwd=cwd, capture_output=True, timeout=timeout, check=False)
 
 
