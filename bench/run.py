@@ -2,7 +2,7 @@
 
     ./dev bench [--json F] [--no-long]
 
-A figure above its budget, or a long test that fails, makes the exit code 1.
+A figure above its budget or below its minimum, or a long test that fails, makes the exit code 1.
 """
 
 import argparse
@@ -95,18 +95,25 @@ def measure() -> list[Row]:
         targets = Path(folder) / "targets.json"
         subprocess.run([sys.executable, ROOT / "bench/targets/measure.py", "--json", targets], check=True)
         rows += json.loads(targets.read_text())
+        coverage = Path(folder) / "coverage.json"
+        done = subprocess.run([sys.executable, ROOT / "bench/coverage.py", "--json", coverage])
+        if not coverage.exists():
+            raise SystemExit(f"coverage.py gave no figure (exit code {done.returncode})")
+        rows += json.loads(coverage.read_text())
     return rows
 
 
 def show(rows: list[Row]) -> bool:
-    """Print the table. True when every budget is kept."""
+    """Print the table. True when every budget and every minimum is kept."""
     kept = True
     for r in rows:
-        value, budget, peer = r["value"], r["budget"], r["peer_value"]
+        value, budget, minimum, peer = r["value"], r["budget"], r.get("minimum"), r["peer_value"]
         over = isinstance(budget, (int, float)) and isinstance(value, (int, float)) and value > budget
-        kept = kept and not over
+        under = isinstance(minimum, (int, float)) and isinstance(value, (int, float)) and value < minimum
+        kept = kept and not over and not under
         beside = f"   {r['peer']} {peer:.6g}" if isinstance(peer, (int, float)) else ""
         limit = f"   budget {budget:g}{' EXCEEDED' if over else ''}" if isinstance(budget, (int, float)) else ""
+        limit += f"   minimum {minimum:g}{' MISSED' if under else ''}" if isinstance(minimum, (int, float)) else ""
         print(f"{r['name']:<44} {value:>12.6g} {r['unit']}{beside}{limit}")
     return kept
 

@@ -221,6 +221,15 @@ TEST(accelfit, refuses)
         EXPECT_EQ(ins_accelfit_add(&fit, &motion, 9), INS_E_RANGE);
         member[1] = good;
     }
+    // The prediction is finite, its derivative x^2 by k2 is not.
+    const ins_real large = INS_C(1e6) * std::sqrt(std::numeric_limits<ins_real>::max());
+    ins_accelfit_t steep = fit;
+    steep.p[4] = 1 / large;
+    const ins_accelfit_motion_t hard = {{large, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    EXPECT_TRUE(std::isfinite(ins_accelfit_predict(&steep, &hard, nullptr)));
+    EXPECT_EQ(ins_accelfit_add(&steep, &hard, 9), INS_E_RANGE);
+    EXPECT_EQ(steep.rows, 0U);
+    EXPECT_EQ(steep.R[0], 0);
     EXPECT_EQ(fit.rows, 0U);
     EXPECT_EQ(fit.R[0], 0);
     ASSERT_EQ(ins_accelfit_add(&fit, &motion, 9), INS_OK);
@@ -228,4 +237,5 @@ TEST(accelfit, refuses)
     ins_real sd[INS_ACCELFIT_N];
     EXPECT_EQ(ins_accelfit_deviation(&fit, -1, sd), INS_E_RANGE);
     EXPECT_EQ(ins_accelfit_deviation(&fit, NOT_A_NUMBER, sd), INS_E_RANGE);
+    EXPECT_EQ(ins_accelfit_deviation(&fit, std::numeric_limits<ins_real>::infinity(), sd), INS_E_RANGE);
 }

@@ -73,8 +73,9 @@ TEST(align, refuses)
     const ins_real nearly_x[3] = {-1, INS_C(1e-4), 0};
     const ins_real zero[3] = {0, 0, 0};
     const ins_real odd[3] = {1, NOT_A_NUMBER, 0};
+    const ins_real huge[3] = {0, std::numeric_limits<ins_real>::max(), 0}; // its square is infinite
     ins_real q[4] = {7, 7, 7, 7};
-    for (const ins_real* bad : {nearly_x, zero, odd})
+    for (const ins_real* bad : {nearly_x, zero, odd, huge})
     {
         EXPECT_EQ(ins_align_triad(x, bad, x, y, q), INS_E_RANGE);
         EXPECT_EQ(ins_align_triad(bad, x, x, y, q), INS_E_RANGE);
@@ -91,6 +92,7 @@ TEST(align, refuses)
     ins_real e[3];
     EXPECT_EQ(ins_mean_init(&mean, -1), INS_E_RANGE);
     EXPECT_EQ(ins_mean_init(&mean, NOT_A_NUMBER), INS_E_RANGE);
+    EXPECT_EQ(ins_mean_init(&mean, std::numeric_limits<ins_real>::infinity()), INS_E_RANGE);
     ASSERT_EQ(ins_mean_init(&mean, 0), INS_OK);
     EXPECT_EQ(ins_mean_add(&mean, odd), INS_E_RANGE);
     EXPECT_EQ(ins_mean_add(&mean, x), INS_OK);

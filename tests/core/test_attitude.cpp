@@ -257,6 +257,16 @@ TEST(attitude, refuses_and_stays_as_it_was)
     EXPECT_EQ(ins_reuse_init(&r, INS_CONING_HIST2_OPT, q3), INS_E_RANGE);
     EXPECT_EQ(ins_reuse_init(&r, INS_CONING_BLOCK2, q3), INS_E_RANGE);
     ASSERT_EQ(ins_reuse_init(&r, INS_CONING_BLOCK3_OPT, q3), INS_OK);
+    for (size_t i = 0; i < 3; i++)
+    {
+        ins_real longer[12];
+        std::copy(q3, q3 + 12, longer);
+        longer[4 * i] = INS_C(1.01);
+        ins_reuse_t untouched = r;
+        EXPECT_EQ(ins_reuse_init(&untouched, INS_CONING_BLOCK3_FIT, longer), INS_E_RANGE) << i;
+        EXPECT_EQ(untouched.form, INS_CONING_BLOCK3_OPT);
+        EXPECT_TRUE(std::equal(&r.q_nb[0][0], &r.q_nb[0][0] + 12, &untouched.q_nb[0][0]));
+    }
     EXPECT_EQ(ins_reuse_step(&r, bad[0], q), INS_E_RANGE);
     EXPECT_EQ(ins_reuse_step(&r, good, q), INS_S_START);
     ins_real phi[3];

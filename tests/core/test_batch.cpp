@@ -75,10 +75,13 @@ TEST(batch, refuses_and_changes_nothing)
     std::vector<ins_real> state(INS_BATCH_ROWS * n, 7);
     ins_batch_t b;
     EXPECT_EQ(ins_batch_init(&b, 0, state.data(), q0.data()), INS_E_RANGE);
-    q0[n - 1] = INS_C(1.01);
-    EXPECT_EQ(ins_batch_init(&b, n, state.data(), q0.data()), INS_E_RANGE);
-    EXPECT_EQ(state, std::vector<ins_real>(INS_BATCH_ROWS * n, 7));
-    q0[n - 1] = 1;
+    for (const size_t at : {size_t(0), n / 2, n - 1})
+    {
+        q0[at] = INS_C(1.01);
+        EXPECT_EQ(ins_batch_init(&b, n, state.data(), q0.data()), INS_E_RANGE) << at;
+        EXPECT_EQ(state, std::vector<ins_real>(INS_BATCH_ROWS * n, 7));
+        q0[at] = 1;
+    }
     ASSERT_EQ(ins_batch_init(&b, n, state.data(), q0.data()), INS_OK);
     const auto before = state;
     for (const ins_real bad : {static_cast<ins_real>(std::nan("")), static_cast<ins_real>(INFINITY), INS_C(-3.2)})

@@ -278,7 +278,10 @@ TEST(geodesy, refuses_what_is_out_of_range)
     const ins_ellipsoid_t flat = {6378137, INS_C(0.01), INS_C(0.0199)};
     EXPECT_EQ(ins_tm_init(&tm, &flat, 0, 1, 0, 0), INS_E_RANGE);
     EXPECT_EQ(ins_tm_init(&tm, &ins_wgs84, 4, 1, 0, 0), INS_E_RANGE);
+    const ins_ellipsoid_t sphere = {6378137, 0, 0};
+    EXPECT_EQ(ins_tm_init(&tm, &sphere, 0, 1, 0, 0), INS_E_RANGE);
     EXPECT_EQ(ins_tm_init(&tm, &ins_wgs84, 0, 0, 0, 0), INS_E_RANGE);
+    EXPECT_EQ(ins_tm_init(&tm, &ins_wgs84, 0, 3, 0, 0), INS_E_RANGE);
     EXPECT_EQ(ins_tm_init(&tm, &ins_wgs84, 0, 1, NOT_A_NUMBER, 0), INS_E_RANGE);
     ASSERT_EQ(ins_tm_init_twd97(&tm, 121), INS_OK);
     const ins_real lon0 = static_cast<ins_real>(121 * RAD);

@@ -125,6 +125,11 @@ TEST(dr_ekf, standing_still_uses_nothing_and_bad_input_is_refused)
     EXPECT_EQ(f.used, INS_DR_DISTANCE);
     EXPECT_GT(f.nis[0], gated.gate);
     EXPECT_EQ(f.gated, 1u);
+    ASSERT_EQ(ins_dr_ekf_init(&f, &gated, moving, sure), INS_OK);
+    EXPECT_EQ(ins_dr_ekf_step(&f, 0, 80), INS_E_GATE) << "80 m in a tenth of a second";
+    EXPECT_EQ(f.used, INS_DR_RATE);
+    EXPECT_GT(f.nis[1], gated.gate);
+    EXPECT_EQ(f.gated, 1u);
 
     const ins_dr_ekf_t before = f;
     EXPECT_EQ(ins_dr_ekf_step(&f, NOT_A_NUMBER, 1), INS_E_RANGE);
@@ -267,6 +272,34 @@ TEST(unicycle, fixes_are_judged_as_one_and_bad_input_is_refused)
     }
 }
 
+TEST(unicycle, what_the_filter_refuses_leaves_it_as_it_was)
+{
+    const ins_unicycle_config_t no_gate = {4, 0, 0, INS_C(1e-4), INS_C(0.0025), 0, 0};
+    const ins_real var[6] = {5, 5, 1, 1, 1, 1};
+    const auto refused = [](ins_unicycle_t f, auto&& call)
+    {
+        const ins_unicycle_t before = f;
+        return call(&f) == INS_E_RANGE && std::equal(f.x, f.x + 6, before.x) && std::equal(f.P, f.P + 36, before.P);
+    };
+    const auto fix = [](ins_unicycle_t* f) { return ins_unicycle_gps(f, 1, 2, 4, nullptr); };
+    const auto still = [](ins_unicycle_t* f) { return ins_unicycle_still(f, INS_C(0.1), 1); };
+
+    ins_unicycle_t f;
+    const ins_real x0[6] = {0, 0, 0, 8, 0, 1};
+    ASSERT_EQ(ins_unicycle_init(&f, &no_gate, x0, var), INS_OK);
+    EXPECT_FALSE(refused(f, fix));
+    EXPECT_FALSE(refused(f, still));
+    ins_unicycle_t lost = f;
+    lost.P[1] = lost.P[6] = 30; // det S = 9 9 - 30 30
+    EXPECT_TRUE(refused(lost, fix));
+    lost = f;
+    lost.P[0] = -1; // det S = 3 9, yet a variance below 0
+    EXPECT_TRUE(refused(lost, fix));
+    const ins_real fast[6] = {0, 0, 0, std::numeric_limits<ins_real>::max(), 0, 1}; // its square is infinite
+    ASSERT_EQ(ins_unicycle_init(&f, &no_gate, fast, var), INS_OK);
+    EXPECT_TRUE(refused(f, still)) << "the yaw rate is not used either";
+}
+
 TEST(vector_gps_dr, fusion_and_information_sharing)
 {
     Worst worst;
@@ -297,9 +330,16 @@ TEST(vector_gps_dr, fusion_and_information_sharing)
             compare(worst, work.data(), c["P_local_reset"][i], "P shared");
         }
         const auto before = info;
-        const std::vector<ins_real> indefinite(n * n, -1);
-        EXPECT_EQ(ins_fusion_add(n, info.data(), y.data(), x.data(), indefinite.data(), work.data()), INS_E_RANGE);
-        EXPECT_EQ(info, before);
+        std::vector<ins_real> unknown(n * n, 0);
+        for (unsigned i = 0; i < n; i++)
+        {
+            unknown[(n + 1) * i] = std::numeric_limits<ins_real>::infinity();
+        }
+        for (const auto& bad : {std::vector<ins_real>(n * n, -1), unknown})
+        {
+            EXPECT_EQ(ins_fusion_add(n, info.data(), y.data(), x.data(), bad.data(), work.data()), INS_E_RANGE);
+            EXPECT_EQ(info, before);
+        }
         for (const ins_real beta : {INS_C(0.0), INS_C(1.5), NOT_A_NUMBER})
         {
             EXPECT_EQ(ins_fusion_share(n, P.data(), beta, work.data()), INS_E_RANGE);

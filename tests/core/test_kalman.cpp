@@ -304,6 +304,10 @@ TEST(kalman, factors_multiply_back_and_indefinite_is_refused)
     const Reals zero = {0, 0, 0, 3};
     EXPECT_EQ(ins_ud_factor(2, zero.data(), UD.data(), work.data()), INS_OK);
     EXPECT_EQ(UD, (Reals{0, 0, 3}));
+    const Reals known = {3, 0, 0, 0};
+    EXPECT_EQ(ins_ud_factor(2, known.data(), UD.data(), work.data()), INS_OK);
+    EXPECT_EQ(UD, (Reals{3, 0, 0}));
+    EXPECT_EQ(ins_ud_factor(2, zero.data(), UD.data(), work.data()), INS_OK);
     const ins_real nan = std::numeric_limits<ins_real>::quiet_NaN();
     const ins_real inf = std::numeric_limits<ins_real>::infinity();
     for (const Reals& bad : {Reals{1, 2, 2, 1}, Reals{-1, 0, 0, 1}, Reals{1, 0, 0, -1}, Reals{1, 1, 1, 0},
@@ -367,6 +371,23 @@ TEST(kalman, predict_leaves_the_callers_x_alone_when_it_is_not_given)
     for (size_t i = 0; i < 4; i++)
     {
         EXPECT_NEAR(static_cast<double>(b.covariance()[i]), static_cast<double>(a.P[i]), 1e-6);
+    }
+}
+
+TEST(kalman, a_state_known_exactly_stays_known_without_noise)
+{
+    const Reals still = {0, 0, 0, 0};
+    for (const Reals& Phi : {Reals{1, 5, 0, 1}, Reals{1, 0, 2, 0}, Reals{0, 1, 1, 0}, Reals{0, 2, 0, 1}})
+    {
+        Filter a(false, {1, 2}, {3, 0, 0, 0});
+        Filter b(true, {1, 2}, {3, 0, 0, 0});
+        a.predict(Phi, still);
+        b.predict(Phi, still);
+        EXPECT_EQ(b.x, a.x);
+        EXPECT_EQ(b.covariance(), a.P) << "small integers: nothing rounds";
+        EXPECT_EQ(a.P[0], 3 * Phi[0] * Phi[0]);
+        EXPECT_EQ(a.P[1], 3 * Phi[0] * Phi[2]);
+        EXPECT_EQ(a.P[3], 3 * Phi[2] * Phi[2]);
     }
 }
 

@@ -127,6 +127,9 @@ TEST(quat, refuses_what_is_no_rotation)
     ins_real nan[4] = {1, 0, NOT_A_NUMBER, 0};
     EXPECT_EQ(ins_quat_normalise(nan), INS_E_RANGE);
     EXPECT_EQ(nan[0], 1);
+    ins_real huge[4] = {0, INS_C(1e16), 0, 0};
+    EXPECT_EQ(ins_quat_normalise(huge), INS_E_RANGE);
+    EXPECT_EQ(huge[1], INS_C(1e16));
     const ins_real bad_dcm[][9] = {{1, 0, 0, 0, 1, 0, 0, 0, -1}, {-1, 0, 0, 0, -1, 0, 0, 0, -1},
                                    {2, 0, 0, 0, 2, 0, 0, 0, 2},  {1, 0, 0, 0, NOT_A_NUMBER, 0, 0, 0, 1},
                                    {0, 0, 0, 0, 0, 0, 0, 0, 0},  {1, static_cast<ins_real>(0.01), 0, 0, 1, 0, 0, 0, 1}};

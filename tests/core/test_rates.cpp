@@ -173,6 +173,7 @@ TEST(skew, refuses)
     EXPECT_EQ(ins_skew_init(&s, 0, good, 1), INS_E_RANGE);
     EXPECT_EQ(ins_skew_init(&s, 4, good, 1), INS_E_RANGE);
     EXPECT_EQ(ins_skew_init(&s, 1, good, 0), INS_E_RANGE);
+    EXPECT_EQ(ins_skew_init(&s, 1, good, INFINITE), INS_E_RANGE);
     EXPECT_EQ(ins_skew_init(&s, 1, late, 1), INS_E_RANGE);
     EXPECT_EQ(ins_skew_init(&s, 1, early, 1), INS_E_RANGE);
     EXPECT_EQ(ins_skew_init(&s, 1, nan, 1), INS_E_RANGE);

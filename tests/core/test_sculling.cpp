@@ -2,6 +2,7 @@
 /// \brief  Sculling against the reference file and the attitude step; the Earth's published numbers. SI, rad.
 /// SPDX-License-Identifier: MIT
 #include "core_test.h"
+#include <cstring>
 using namespace core_test;
 
 namespace
@@ -88,6 +89,23 @@ TEST(sculling, step_is_the_correction_beside_the_attitude_step)
             }
             EXPECT_LT(angle_between(quat(s.q_nb), quat(a.q_nb)), INS_TOL(1e-14, 5e-6)) << form << " " << k;
         }
+    }
+}
+
+TEST(sculling, a_turn_too_large_is_refused_and_changes_nothing)
+{
+    const ins_increment_t calm = increment_of({1e-3, 2e-3, 1e-3}, {0, 0, -0.098});
+    const ins_increment_t turn = increment_of({0, 4, 0}, {0, 0, -0.098});
+    ins_sculling_t s;
+    ASSERT_EQ(ins_sculling_init(&s, INS_CONING_HIST2_OPT, LEVEL), INS_OK);
+    for (int k = 0; k < 4; k++) // the general step first, then the fast one
+    {
+        const ins_sculling_t before = s;
+        ins_real dv[3] = {7, 7, 7};
+        EXPECT_EQ(ins_sculling_step(&s, &turn, dv), INS_E_RANGE);
+        EXPECT_EQ(dv[0], 7);
+        EXPECT_EQ(std::memcmp(&before, &s, sizeof s), 0);
+        EXPECT_EQ(ins_sculling_step(&s, &calm, dv), k < 2 ? INS_S_START : INS_OK);
     }
 }
 

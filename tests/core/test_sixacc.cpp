@@ -220,6 +220,7 @@ TEST(sixacc, refuses)
     EXPECT_EQ(ins_sixacc_init(&s, INS_SIXACC_MAX + 1, accels.data(), INS_C(0.01)), INS_E_RANGE);
     EXPECT_EQ(ins_sixacc_init(&s, 8, accels.data(), 0), INS_E_RANGE);
     EXPECT_EQ(ins_sixacc_init(&s, 8, accels.data(), NOT_A_NUMBER), INS_E_RANGE);
+    EXPECT_EQ(ins_sixacc_init(&s, 8, accels.data(), std::numeric_limits<ins_real>::infinity()), INS_E_RANGE);
     ins_accel_t together[6];
     ins_sixacc_paper(0, together); // all in one place: no angular acceleration is seen
     EXPECT_EQ(ins_sixacc_init(&s, 6, together, INS_C(0.01)), INS_E_RANGE);
@@ -249,6 +250,25 @@ TEST(sixacc, refuses)
     {
         EXPECT_EQ(s.linear[i], before.linear[i]);
     }
+    // Finite readings whose specific force is not; the long arm keeps the angular acceleration small.
+    ins_accel_t far[6];
+    ins_sixacc_paper(100, far);
+    ASSERT_EQ(ins_sixacc_init(&s, 6, far, INS_C(0.01)), INS_OK);
+    const auto along_x = [&](ins_real scale)
+    {
+        ins_real r[6];
+        for (size_t j = 0; j < 6; j++)
+        {
+            r[j] = far[j].axis[0] > 0 ? scale : far[j].axis[0] < 0 ? -scale : 0;
+        }
+        return ins_sixacc_step(&s, r, &x);
+    };
+    const ins_real largest = std::numeric_limits<ins_real>::max();
+    EXPECT_EQ(along_x(largest), INS_E_RANGE);
+    EXPECT_EQ(s.started, 0);
+    EXPECT_EQ(along_x(largest / 2), INS_S_START);
+    EXPECT_NEAR(static_cast<double>(s.linear[3] / largest), std::sqrt(0.5), TOL_REL);
+    EXPECT_LT(std::fabs(static_cast<double>(s.linear[0] / largest)), TOL_REL);
     ins_linfit_t fit;
     ins_real map[4];
     EXPECT_EQ(ins_linfit_init(&fit, 0), INS_E_RANGE);

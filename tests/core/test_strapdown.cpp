@@ -115,23 +115,26 @@ TEST(strapdown, slow_motion_is_not_lost_in_the_position)
 
 TEST(strapdown, anchor_follows_and_longitude_wraps)
 {
-    const ins_position_t p = place(0.5, 179.99 * RAD, 0);
-    const ins_real v[3] = {0, 300, 0};
-    ins_strapdown_t s;
-    ASSERT_EQ(ins_strapdown_init(&s, INS_CONING_HIST2_OPT, INS_C(0.01), LEVEL, v, &p), INS_OK);
-    for (int k = 0; k < 1000; k++)
+    for (const int sense : {1, -1}) // east over the date line, and west
     {
-        const ins_increment_t x = increment_of({0, 0, 0}, {0, 0, -0.0979});
-        ASSERT_GE(ins_strapdown_step(&s, &x), INS_OK);
-        EXPECT_LE(std::fabs(static_cast<double>(s.position.offset[1])), 2.6e-4);
+        const ins_position_t p = place(0.5, sense * 179.99 * RAD, 0);
+        const ins_real v[3] = {0, static_cast<ins_real>(300 * sense), 0};
+        ins_strapdown_t s;
+        ASSERT_EQ(ins_strapdown_init(&s, INS_CONING_HIST2_OPT, INS_C(0.01), LEVEL, v, &p), INS_OK);
+        for (int k = 0; k < 1000; k++)
+        {
+            const ins_increment_t x = increment_of({0, 0, 0}, {0, 0, -0.0979});
+            ASSERT_GE(ins_strapdown_step(&s, &x), INS_OK);
+            EXPECT_LE(std::fabs(static_cast<double>(s.position.offset[1])), 2.6e-4);
+        }
+        EXPECT_LT(static_cast<double>(s.position.anchor[1]) * sense, -179.9 * RAD);
+        ins_real ned[3];
+        ins_position_difference(&p, &s.position, ned);
+        EXPECT_NEAR(static_cast<double>(ned[1]), sense * 3000, 0.3);
+        ins_real back[3];
+        ins_position_difference(&s.position, &p, back);
+        EXPECT_NEAR(static_cast<double>(back[1]), -static_cast<double>(ned[1]), 0.3);
     }
-    EXPECT_LT(s.position.anchor[1], 0);
-    ins_real ned[3];
-    ins_position_difference(&p, &s.position, ned);
-    EXPECT_NEAR(static_cast<double>(ned[1]), 3000, 0.3);
-    ins_real back[3];
-    ins_position_difference(&s.position, &p, back);
-    EXPECT_NEAR(static_cast<double>(back[1]), -static_cast<double>(ned[1]), 0.3);
 }
 
 TEST(strapdown, another_point_of_the_body)
