@@ -109,8 +109,8 @@ static inline int sound_gimu(const ins_gimu_t* s)
 /// A packet that was given out: samples of 16 bits, a position that there is on Earth.
 static inline int sound_packet(const ins_gimu_packet_t* p)
 {
-    return p->has_position <= 1 && p->sats <= 32 && p->lat_e7 >= 0 && p->lat_e7 <= 900000000 && p->lon_e7 >= 0 &&
-           p->lon_e7 <= 1810000000;
+    return p->has_position <= 1 && p->sats <= 32 && p->lat_e7 >= 0 && p->lat_e7 <= INT32_C(900000000) &&
+           p->lon_e7 >= 0 && p->lon_e7 <= INT32_C(1810000000);
 }
 
 /// The body is text without $ and *, `sum` is its exclusive or; `sent` is a digit, then a verdict.
@@ -137,7 +137,7 @@ static inline int sound_nmea(const ins_nmea_t* s)
 /// A fix that was given out: each figure within what its field can hold.
 static inline int sound_fix(const ins_nmea_fix_t* f)
 {
-    const int32_t figure_max = 2000000999; // WHOLE_MAX of nmea.c in thousandths
+    const int32_t figure_max = INT32_C(2000000999); // WHOLE_MAX of nmea.c in thousandths
     const int32_t figures[] = {f->altitude_mm, f->geoid_mm, f->hdop_milli, f->speed_milliknot, f->course_mdeg};
     for (unsigned i = 0; i < sizeof figures / sizeof figures[0]; i++)
     {
@@ -146,8 +146,9 @@ static inline int sound_fix(const ins_nmea_fix_t* f)
             return 0;
         }
     }
-    return f->has <= 511 && f->valid <= 1 && f->quality <= 0xFFu && f->sats <= 0xFFu && f->time_ms < 86401000 &&
-           f->lat_e7 <= 900000000 && f->lat_e7 >= -900000000 && f->lon_e7 <= 1800000000 && f->lon_e7 >= -1800000000 &&
+    return f->has <= 511 && f->valid <= 1 && f->quality <= 0xFFu && f->sats <= 0xFFu && f->time_ms < 86401000UL &&
+           f->lat_e7 <= INT32_C(900000000) && f->lat_e7 >= -INT32_C(900000000) && f->lon_e7 <= INT32_C(1800000000) &&
+           f->lon_e7 >= -INT32_C(1800000000) &&
            (!(f->has & INS_NMEA_DATE) ||
             (f->date[0] >= 1 && f->date[0] <= 31 && f->date[1] >= 1 && f->date[1] <= 12 && f->date[2] <= 99));
 }
