@@ -1,7 +1,7 @@
 /// \file   load.c
 /// \brief  A load for tools/insncount.c: attitude steps on a target, with no component of an increment zero (soft float is quick there).
 ///
-/// LOAD_ATTITUDE, LOAD_Q31 or LOAD_Q31W names the step. All data is static: what a step stores on the stack is its own.
+/// LOAD_ATTITUDE, LOAD_LEAN, LOAD_Q31 or LOAD_Q31W names the step. All data is static: what a step stores on the stack is its own.
 /// SPDX-License-Identifier: MIT
 #include "ins/ins.h"
 #ifdef __AVR__
@@ -14,13 +14,19 @@
 #define SAMPLES 16
 #define STEPS   80 // the first 16 are start-up
 
-#if defined(LOAD_ATTITUDE)
-typedef ins_attitude_t state_t;
+#if defined(LOAD_ATTITUDE) || defined(LOAD_LEAN)
 typedef ins_real number_t;
-#define ONE                 INS_C(1.0)
-#define RAD(x)              INS_C(x)
+#define ONE    INS_C(1.0)
+#define RAD(x) INS_C(x)
+#ifdef LOAD_LEAN
+typedef ins_hist2_t state_t;
+#define INIT ins_hist2_init
+#define STEP ins_hist2_step
+#else
+typedef ins_attitude_t state_t;
 #define INIT(state, q)      ins_attitude_init(state, INS_CONING_HIST2_OPT, q)
 #define STEP(state, dtheta) ins_attitude_step(state, dtheta)
+#endif
 #else
 typedef int32_t number_t;
 #define ONE    INS_Q31_ONE

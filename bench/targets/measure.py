@@ -33,12 +33,17 @@ PAGE = ROOT / "docs/targets.md"
 LOADS = {
     "attitude.hist2.f64": ("ins_attitude_step", "LOAD_ATTITUDE", "f64"),
     "attitude.hist2.f32": ("ins_attitude_step", "LOAD_ATTITUDE", "f32"),
+    "attitude.lean.f64": ("ins_hist2_step", "LOAD_LEAN", "f64"),
+    "attitude.lean.f32": ("ins_hist2_step", "LOAD_LEAN", "f32"),
     "attitude.q31": ("ins_q31_step", "LOAD_Q31", "f32"),
     "attitude.q31w": ("ins_q31w_step", "LOAD_Q31W", "f32"),
 }
+SOURCES = {"attitude": "attitude|coning|rotvec|quat", "hist2": "hist2", "q31": "q31", "q31w": "q31"}
 MEASURED = ("m0", "m3", "m4f", "m7", "arm926", "arm920t", "rv32imac", "avr")
-# Where -O2 is not the build to take: fewer instructions and a third of the code.
+# Where -O2 is not the build to take: fixed point on M0 has fewer instructions and a third of the code; lean is meant
+# for small flash.
 BEST = {("m0", "attitude.q31"): "-Os", ("m0", "attitude.q31w"): "-Os"}
+BEST |= {(machine, f"attitude.lean.{number}"): "-Os" for machine in MEASURED for number in ("f64", "f32")}
 QUANTITIES = {"instructions": "instructions", "text": "octets", "step": "octets", "state": "octets", "stack": "octets"}
 
 
@@ -112,7 +117,7 @@ def measure(machine: Machine, load: str, flags: str, folder: Path, counter: Path
     (folder / "core").mkdir(parents=True)
     objects = []
     for source in sorted((CORE / "src").glob("*.c")):
-        if re.match("q31" if function.startswith("ins_q31") else "attitude|coning|rotvec|quat", source.name):
+        if re.match(SOURCES[function.split("_")[1]], source.name):
             objects.append(folder / "core" / f"{source.stem}.o")
             machine.compile(source, objects[-1], options)
     main = folder / "load.o"

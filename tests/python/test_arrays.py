@@ -57,6 +57,19 @@ def test_batch_has_the_bits_of_the_single_step(ins):
 
 
 @both
+def test_the_small_step_has_the_bits_of_the_general_one(ins):
+    theta = seeded(ins, 500, 3)
+    lean = ins.Hist2(LEVEL)
+    track = lean.step(theta)
+    assert np.array_equal(track, ins.Attitude(ins.CONING_HIST2_OPT, LEVEL).step(theta))
+    assert np.array_equal(lean.q_nb, track[-1]) and lean.count == 2
+    with pytest.raises(ins.RangeError, match="Hist2.step: row 1: .*0.5 rad"):
+        lean.step(np.array([[0, 0, 0], [0, 0.6, 0]], dtype=ins.real))
+    with pytest.raises(ins.RangeError, match="Hist2: .*unit norm"):
+        ins.Hist2([1.01, 0, 0, 0])
+
+
+@both
 def test_fixed_point_follows_the_real_one(ins):
     theta = seeded(ins, 500, 3)
     wanted = ins.Attitude(ins.CONING_HIST2_OPT, LEVEL).step(theta)[-1]
@@ -234,6 +247,7 @@ def test_a_copy_is_a_snapshot(ins):
     theta = seeded(ins, 10, 3)
     for original in (
         ins.Attitude(ins.CONING_HIST3_OPT, LEVEL),
+        ins.Hist2(LEVEL),
         ins.Thesis(LEVEL),
         ins.Fiter(ins.FITER_HIST3, 1.0, LEVEL),
         ins.Rates(4, 0.01),

@@ -37,6 +37,22 @@ static void forms(void)
     same_end();
 }
 
+static void small_step(void)
+{
+    ins_hist2_t lean;
+    same_begin("hist2");
+    same_integer((uint32_t)ins_hist2_init(&lean, start));
+    same_reals(lean.q_nb, 4);
+    for (int k = 0; k < STEPS; k++)
+    {
+        ins_real v[3];
+        random_reals(k % LARGE_STEPS == 0 ? 3 * SMALL_RAD : SMALL_RAD, v, 3); // some are refused
+        same_integer((uint32_t)ins_hist2_step(&lean, v));
+        same_reals(lean.q_nb, 4);
+    }
+    same_end();
+}
+
 static void rotation_vectors(void)
 {
     same_begin("coning");
@@ -164,6 +180,7 @@ static void batch(void)
 void run_attitude(void)
 {
     forms();
+    small_step();
     rotation_vectors();
     fixed_point();
     sampled_rates();

@@ -1,5 +1,6 @@
 /// \file   attitude.cpp
-/// \brief  Attitude from increments, alone, by functional iteration and in batches: ins/attitude.h, ins/fiter.h, ins/batch.h.
+/// \brief  Attitude from increments, alone, small, by functional iteration and in batches: ins/attitude.h, ins/hist2.h,
+///         ins/fiter.h, ins/batch.h.
 /// SPDX-License-Identifier: MIT
 #include "arrays.hpp"
 
@@ -71,6 +72,43 @@ void bind_step(nb::module_& m)
            "Attitude now, scalar first, (4,); set it to keep the history alone.");
     attitude.def_ro("count", &ins_attitude_t::count, "Previous increments held.");
     copies(attitude);
+}
+
+void bind_lean(nb::module_& m)
+{
+    nb::class_<ins_hist2_t> lean(
+        m, "Hist2",
+        "Attitude from angle increments, the small form: the bits of Attitude(CONING_HIST2_OPT). Frame: b -> n.");
+    lean.def(
+        "__init__",
+        [](ins_hist2_t* self, const Given& q_nb)
+        {
+            new (self) ins_hist2_t();
+            const Call call("Hist2", "q_nb within 1e-3 of unit norm");
+            call.check(ins_hist2_init(self, call.whole<ins_real>("q_nb", q_nb, {4}).data));
+        },
+        "q_nb"_a, "q_nb: (4,).");
+    lean.def(
+        "step",
+        [](ins_hist2_t& self, const Given& dtheta_b)
+        {
+            Call call("Hist2.step", "dtheta_b finite, |dtheta_b| with its coning term <= 0.5 rad");
+            const auto in = call.rows<ins_real>("dtheta_b", dtheta_b, {3});
+            const auto out = call.out<ins_real>({4});
+            call.run(
+                [&](size_t k)
+                {
+                    const ins_status_t status = ins_hist2_step(&self, in[k]);
+                    std::copy(self.q_nb, self.q_nb + 4, out[k]);
+                    return status;
+                });
+            return out;
+        },
+        "dtheta_b"_a, "Increments [rad], (3,) or (N, 3), to q_nb after each, (4,) or (N, 4).");
+    writes(lean, "q_nb", &ins_hist2_t::q_nb, {4},
+           "Attitude now, scalar first, (4,); set it to keep the history alone.");
+    lean.def_ro("count", &ins_hist2_t::count, "Previous increments held.");
+    copies(lean);
 }
 
 void bind_fiter(nb::module_& m)
@@ -189,6 +227,7 @@ void bind_attitude(nb::module_& m)
     LIBINS_CONSTANT(FITER_BLOCK3)
     LIBINS_CONSTANT(FITER_FORM_COUNT)
     bind_step(m);
+    bind_lean(m);
     bind_fiter(m);
     bind_batch(m);
 }

@@ -833,6 +833,27 @@ extern "C" {
     #[doc = "\\param[in] block  [6] \\param[out] codes  [3] 0..4095"]
     pub fn ins_hs_block_codes(block: *const ins_octet_t, codes: *mut u16);
 }
+#[doc = "Start with ins_hist2_init()."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_hist2_t {
+    #[doc = "scalar first; v_n = q v_b q*"]
+    pub q_nb: [ins_real; 4usize],
+    #[doc = "previous increments, newest first [rad]"]
+    pub prev: [[ins_real; 3usize]; 2usize],
+    #[doc = "previous increments held"]
+    pub count: uint_least8_t,
+}
+extern "C" {
+    #[doc = "\\return INS_OK; INS_E_RANGE for NaN, or a norm that is not within 1e-3 of 1 (it is normalised), and then self is unchanged."]
+    pub fn ins_hist2_init(self_: *mut ins_hist2_t, q_nb: *const ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Turn by one increment."]
+    #[doc = "\\return INS_OK; INS_S_START for the first two; INS_E_RANGE for NaN or one that turns by more than 0.5, its coning term"]
+    #[doc = "included, and then self is unchanged."]
+    pub fn ins_hist2_step(self_: *mut ins_hist2_t, dtheta_b: *const ins_real) -> ins_status_t;
+}
 extern "C" {
     #[doc = "One more octet."]
     pub fn ins_link_crc(crc: u16, octet: ins_octet_t) -> u16;

@@ -37,6 +37,7 @@ pub mod geodesy;
 pub mod gimu;
 pub mod gps_axis;
 pub mod handshake;
+pub mod hist2;
 pub mod kalman;
 pub mod link;
 pub mod markov;

@@ -17,6 +17,7 @@
 #include "ins/gimu.h"
 #include "ins/gps_axis.h"
 #include "ins/handshake.h"
+#include "ins/hist2.h"
 #include "ins/ins_math.h"
 #include "ins/kalman.h"
 #include "ins/link.h"

@@ -5,6 +5,7 @@ use libins::align::{self, Mean};
 use libins::attitude::Attitude;
 use libins::batch::{Batch, ROWS};
 use libins::coning::{self, Form};
+use libins::hist2::Hist2;
 use libins::kalman::{Innovation, Kalman, Ud, GATE_99};
 use libins::nmea::{Parser, Sentence};
 use libins::q31::{Q31w, ONE, Q31};
@@ -95,6 +96,19 @@ fn batch_has_the_bits_of_the_single_step() {
         let q: Quat = std::array::from_fn(|row| batch.q_nb()[row * N + i]);
         assert_eq!(q, *one.q_nb());
     }
+}
+
+#[test]
+fn the_small_step_has_the_bits_of_the_general_one() {
+    let mut lean = Hist2::new(&LEVEL).unwrap();
+    let mut attitude = Attitude::new(Form::Hist2Opt, &LEVEL).unwrap();
+    for k in 0..1000 {
+        assert_eq!(lean.step(&wobble(k)), attitude.step(&wobble(k)));
+        assert_eq!(lean.q_nb(), attitude.q_nb());
+    }
+    assert_eq!(lean.step(&[0.6, 0.0, 0.0]), Err(Error::Range));
+    assert_eq!(lean.q_nb(), attitude.q_nb());
+    assert!(Hist2::new(&[1.01, 0.0, 0.0, 0.0]).is_err());
 }
 
 #[test]
