@@ -1,6 +1,6 @@
 """Mutation of the core: changes one line at a time and asks whether the tests of the core notice.
 
-    python bench/mutation.py [--count 2000] [--seed 1] [--jobs 2] [--only NAME] [--json F]
+    python bench/mutation.py [--count 2000] [--seed 1] [--jobs 2] [--only NAME | --again F] [--json F]
 
 Mutants come from universalmutator's rules, a seeded sample over all sources and private headers of libins/core/src.
 A mutant that does not compile, or whose objects equal the original's (a comment, an equivalent expression), counts as
@@ -82,6 +82,15 @@ def all_mutants(only: str | None) -> list[Mutant]:
             )
         found += [Mutant(path.name, m[0], lines[m[0] - 1].rstrip("\n"), m[1].rstrip("\n")) for m in mutants]
     return found
+
+
+def stands_now(mutant: Mutant) -> Mutant:
+    """The same change where its line stands today, the nearest if there are several."""
+    lines = (CORE / "src" / mutant.file).read_text(encoding="utf-8").splitlines()
+    places = [k + 1 for k, line in enumerate(lines) if line == mutant.before]
+    if not places:
+        sys.exit(f"{mutant.file}:{mutant.line} is no longer `{mutant.before.strip()}`: draw a new sample")
+    return Mutant(mutant.file, min(places, key=lambda k: abs(k - mutant.line)), mutant.before, mutant.after)
 
 
 class Core:
@@ -169,11 +178,18 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--only", metavar="NAME", help="one module, as attitude")
+    parser.add_argument(
+        "--again", type=Path, metavar="F", help="the survivors of an earlier run's --json, after new tests"
+    )
     parser.add_argument("--json", type=Path, metavar="F", help="write the counts and the survivors there")
     options = parser.parse_args()
-    everything = all_mutants(options.only)
-    sample = random.Random(options.seed).sample(everything, min(options.count, len(everything)))
-    print(f"seed {options.seed}: {len(sample)} of {len(everything)} mutants")
+    if options.again is not None:
+        sample = [stands_now(Mutant(**m)) for m in json.loads(options.again.read_text(encoding="utf-8"))["survived"]]
+        print(f"{len(sample)} that survived in {options.again}")
+    else:
+        everything = all_mutants(options.only)
+        sample = random.Random(options.seed).sample(everything, min(options.count, len(everything)))
+        print(f"seed {options.seed}: {len(sample)} of {len(everything)} mutants", flush=True)
     outcome = Outcome()
     with tempfile.TemporaryDirectory() as temporary:
         core = Core(Path(temporary) / "core")

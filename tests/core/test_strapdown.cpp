@@ -161,6 +161,15 @@ TEST(strapdown, another_point_of_the_body)
         EXPECT_NEAR(static_cast<double>(ned[i]), want[i], INS_TOL(1e-6, 1e-4)) << i;
         EXPECT_NEAR(static_cast<double>(v_point[i]), want_v[i], 2e-4) << i;
     }
+    // Level and heading north, b and n have the same axes.
+    ASSERT_EQ(ins_strapdown_init(&s, INS_CONING_HIST2_OPT, INS_C(0.01), LEVEL, v, &p), INS_OK);
+    const ins_real ahead[3] = {3, -2, 1};
+    ins_strapdown_point(&s, ahead, w, v_point, &point);
+    ins_position_difference(&s.position, &point, ned);
+    for (size_t i = 0; i < 3; i++)
+    {
+        EXPECT_NEAR(static_cast<double>(ned[i]), static_cast<double>(ahead[i]), INS_TOL(1e-6, 1e-4)) << i;
+    }
     // At rest on Earth, turning with it, the point stands still.
     const ins_real still[3] = {0, 0, 0};
     ASSERT_EQ(ins_strapdown_init(&s, INS_CONING_HIST2_OPT, INS_C(0.01), LEVEL, still, &p), INS_OK);
