@@ -36,7 +36,13 @@ inline json load(const std::string& name)
     return json::parse(file);
 }
 
-/// The largest of many errors, and where it was; failures show it, and so does the report.
+/// The larger of two, and NaN once there is one: std::max(worst, NaN) is worst.
+inline double larger(double worst, double e)
+{
+    return std::isnan(worst) || e <= worst ? worst : e;
+}
+
+/// The largest of many errors, and where it was; failures show it, and so does the report. NaN is the largest of all.
 struct Worst
 {
     double error = 0;
@@ -47,7 +53,7 @@ struct Worst
     {
         const double e = std::fabs(got - want) / scale;
         checked++;
-        if (!(e <= error))
+        if (!std::isnan(error) && !(e <= error))
         {
             error = e;
             where = place + ": got " + std::to_string(got) + ", want " + std::to_string(want);
@@ -290,7 +296,7 @@ inline double max_error(const Track& track, const std::function<Quat(size_t)>& t
     double worst = 0;
     for (const auto& point : track)
     {
-        worst = std::max(worst, angle_between(point.second, truth(point.first)));
+        worst = larger(worst, angle_between(point.second, truth(point.first)));
     }
     return worst;
 }

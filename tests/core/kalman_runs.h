@@ -106,7 +106,7 @@ inline double gain_error(bool ud, double r, double p0)
             if (k >= 3)
             {
                 const long double want = M[i][0] / s;
-                worst = std::max(worst, std::fabs(static_cast<double>((static_cast<long double>(K[i]) - want) / want)));
+                worst = larger(worst, std::fabs(static_cast<double>((static_cast<long double>(K[i]) - want) / want)));
             }
             for (size_t j = 0; j < 3; j++) // Joseph, in long double
             {

@@ -288,7 +288,7 @@ TEST(attitude, norm_stays_one_over_ten_minutes)
     {
         ASSERT_GE(ins_attitude_step(&a, real(Vec{uniform(random), uniform(random), uniform(random)}).data()), INS_OK);
         const Quat q = quat(a.q_nb);
-        worst = std::max(worst, std::fabs(1 - std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3])));
+        worst = larger(worst, std::fabs(1 - std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3])));
     }
     std::printf("[ figure   ] norm error %.1e after %ld steps, seed %u\n", worst, NORM_STEPS, seed);
     EXPECT_LE(worst, TOL_NORM);

@@ -69,10 +69,10 @@ Errors thesis_errors(double dlon)
         double back[2];
         EXPECT_EQ(ins_tm_thesis_forward(&tm, lat * RAD, dlon, en), INS_OK);
         EXPECT_EQ(ins_tm_thesis_inverse(&tm, want, back), INS_OK);
-        worst.forward_e = std::max(worst.forward_e, std::fabs(en[0] - want[0]));
-        worst.forward_n = std::max(worst.forward_n, std::fabs(en[1] - want[1]));
-        worst.inverse_lat = std::max(worst.inverse_lat, std::fabs(back[0] - lat * RAD));
-        worst.inverse_lon = std::max(worst.inverse_lon, std::fabs(back[1] - dlon));
+        worst.forward_e = larger(worst.forward_e, std::fabs(en[0] - want[0]));
+        worst.forward_n = larger(worst.forward_n, std::fabs(en[1] - want[1]));
+        worst.inverse_lat = larger(worst.inverse_lat, std::fabs(back[0] - lat * RAD));
+        worst.inverse_lon = larger(worst.inverse_lon, std::fabs(back[1] - dlon));
     }
     return worst;
 }

@@ -151,10 +151,10 @@ TEST(q31, ten_minutes_of_random_motion)
             ASSERT_EQ(ins_q31_step(&narrow, increment.data()), expected);
             ASSERT_EQ(ins_q31w_step(&wide, increment.data()), expected);
             reference.step(in_rad(increment));
-            worst[0] = std::max(worst[0], angle_between(from_q30(narrow.q_nb), reference.q));
-            worst[1] = std::max(worst[1], angle_between(from_q62(wide.q_nb), reference.q));
-            worst_norm = std::max(worst_norm, std::fabs(norm_of(from_q30(narrow.q_nb)) - 1));
-            worst_norm = std::max(worst_norm, std::fabs(norm_of(from_q62(wide.q_nb)) - 1));
+            worst[0] = larger(worst[0], angle_between(from_q30(narrow.q_nb), reference.q));
+            worst[1] = larger(worst[1], angle_between(from_q62(wide.q_nb), reference.q));
+            worst_norm = larger(worst_norm, std::fabs(norm_of(from_q30(narrow.q_nb)) - 1));
+            worst_norm = larger(worst_norm, std::fabs(norm_of(from_q62(wide.q_nb)) - 1));
         }
         std::printf("[ figure   ] increments up to %.3f rad, seed %u: 32-bit %.2e rad, 64-bit %.2e rad, norm %.1e\n",
                     largest, SEED, worst[0], worst[1], worst_norm);

@@ -33,7 +33,7 @@ double peak(const std::array<double, 2>& k, double top)
     double worst = 0;
     for (int i = 1; i <= 1000; i++)
     {
-        worst = std::max(worst, std::fabs(drift(k, top * i / 1000)));
+        worst = larger(worst, std::fabs(drift(k, top * i / 1000)));
     }
     return worst;
 }

@@ -190,12 +190,12 @@ TEST(sixacc, rate_integration_is_second_order)
             ASSERT_EQ(ins_sixacc_step(&s, readings, &x), k ? INS_OK : INS_S_START);
             for (size_t i = 0; i < 3; i++)
             {
-                worst_w = std::max(worst_w, std::fabs(static_cast<double>(s.w_ib_b[i]) - rate(k * T)[i]));
+                worst_w = larger(worst_w, std::fabs(static_cast<double>(s.w_ib_b[i]) - rate(k * T)[i]));
                 sum[i] += static_cast<double>(x.theta_b[i]);
-                worst_angle = std::max(worst_angle, std::fabs(sum[i] - (angle(k * T)[i] - angle(0)[i])));
+                worst_angle = larger(worst_angle, std::fabs(sum[i] - (angle(k * T)[i] - angle(0)[i])));
                 if (k)
                 {
-                    worst_v = std::max(worst_v, std::fabs(static_cast<double>(x.v_b[i]) / T - f[i]));
+                    worst_v = larger(worst_v, std::fabs(static_cast<double>(x.v_b[i]) / T - f[i]));
                 }
             }
         }

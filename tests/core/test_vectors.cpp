@@ -74,6 +74,19 @@ Track run_named(const std::string& name, const std::vector<Vec>& pre, const std:
 }
 } // namespace
 
+TEST(core_test, no_number_is_the_largest_error)
+{
+    Worst worst;
+    for (const double got : {1.0, std::nan(""), 0.0})
+    {
+        worst.take(got, 0, 1, "here");
+    }
+    EXPECT_TRUE(std::isnan(worst.error));
+    EXPECT_TRUE(std::isnan(larger(larger(0, std::nan("")), 1)));
+    EXPECT_EQ(larger(1, 2), 2);
+    EXPECT_EQ(larger(2, 1), 2);
+}
+
 TEST(vector_coning, coefficients)
 {
     const json file = load("coning.json");
