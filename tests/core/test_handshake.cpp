@@ -261,3 +261,28 @@ TEST(handshake, refuses_settings_that_cannot_work)
     bad([](ins_hs_config_t* c) { c->octet_timeout = 40000; }, false, true);
     bad([](ins_hs_config_t* c) { c->octet_timeout = c->reply_timeout; }, false, true);
 }
+
+TEST(handshake, codes_of_a_block_and_the_count_of_wrong_sums)
+{
+    const ins_octet_t block[6] = {0xF1, 0x02, 0x03, 0xF4, 0x05, 0x06};
+    uint16_t codes[3];
+    ins_hs_block_codes(block, codes);
+    EXPECT_EQ(codes[0], 0x102);
+    EXPECT_EQ(codes[1], 0x3F4);
+    EXPECT_EQ(codes[2], 0x506);
+    ins_hs_host_t host;
+    const ins_hs_config_t cfg = config(false, 3);
+    ASSERT_EQ(ins_hs_host_init(&host, &cfg), INS_OK);
+    int16_t reply;
+    ins_hs_host_rx(&host, INS_HS_REQUEST, 0, &reply);
+    for (unsigned wrong = 1; wrong <= 2; wrong++)
+    {
+        for (const ins_octet_t o : block)
+        {
+            EXPECT_EQ(ins_hs_host_rx(&host, o, 0, &reply), INS_HS_NOTHING);
+        }
+        EXPECT_EQ(ins_hs_host_rx(&host, 0, 0, &reply), INS_HS_CORRUPT);
+        EXPECT_EQ(reply, INS_HS_RESEND);
+        EXPECT_EQ(host.corrupt, wrong);
+    }
+}

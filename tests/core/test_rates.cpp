@@ -171,6 +171,7 @@ TEST(skew, refuses)
     const ins_real early[3] = {0, INS_C(-0.1), 0};
     const ins_real nan[3] = {0, 0, NOT_A_NUMBER};
     EXPECT_EQ(ins_skew_init(&s, 0, good, 1), INS_E_RANGE);
+    EXPECT_EQ(ins_skew_init(&s, 1, good, -1), INS_E_RANGE);
     EXPECT_EQ(ins_skew_init(&s, 4, good, 1), INS_E_RANGE);
     EXPECT_EQ(ins_skew_init(&s, 1, good, 0), INS_E_RANGE);
     EXPECT_EQ(ins_skew_init(&s, 1, good, INFINITE), INS_E_RANGE);
