@@ -81,8 +81,15 @@ acq_board_t* acq_board_create(const acq_board_config_t* config, emu_sched_t* sch
     }
     self->clock = (emu_clock_t){.hz = config->crystal_hz, .divider = 12};
     self->sched = sched;
-    const mcs51_config_t cpu = {
-        .clock = self->clock, .port = port_changed, .sync = sync_to, .ctx = self, .report = config->report};
+    const mcs51_config_t cpu = {.clock = self->clock,
+                                .port = port_changed,
+                                .sync = sync_to,
+                                .ctx = self,
+                                .report = config->report,
+                                .part = config->part,
+                                .code_octets = config->code_octets,
+                                .xdata_octets = config->xdata_octets,
+                                .stack_limit = config->stack_limit};
     self->cpu = mcs51_create(&cpu);
     memset(self->outside, 0xFF, sizeof self->outside);
     for (unsigned i = 0; i < NETS; i++)

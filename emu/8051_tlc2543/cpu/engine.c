@@ -85,9 +85,9 @@
 #define IREAD(x, i)                                                                                                    \
     {                                                                                                                  \
         const unsigned i_ = (i);                                                                                       \
-        if (i_ < 0x80u)                                                                                                \
+        if (i_ < self->ram_octets)                                                                                     \
         {                                                                                                              \
-            x = mem[i_];                                                                                               \
+            x = mem[i_ + (i_ & 0x80u)];                                                                                \
         }                                                                                                              \
         else                                                                                                           \
         {                                                                                                              \
@@ -98,9 +98,9 @@
 #define IWRITE(i, v)                                                                                                   \
     {                                                                                                                  \
         const unsigned i_ = (i);                                                                                       \
-        if (i_ < 0x80u)                                                                                                \
+        if (i_ < self->ram_octets)                                                                                     \
         {                                                                                                              \
-            mem[i_] = U8(v);                                                                                           \
+            mem[i_ + (i_ & 0x80u)] = U8(v);                                                                            \
         }                                                                                                              \
         else                                                                                                           \
         {                                                                                                              \
@@ -111,7 +111,7 @@
 #define CODE(x, a)                                                                                                     \
     {                                                                                                                  \
         const unsigned a_ = (a);                                                                                       \
-        if (a_ < MCS51_FLASH)                                                                                          \
+        if (a_ < self->code_octets)                                                                                    \
         {                                                                                                              \
             x = code[a_];                                                                                              \
         }                                                                                                              \
@@ -121,8 +121,21 @@
             x = mcs51_absent_code(self, a_);                                                                           \
         }                                                                                                              \
     }
-#define XREAD(x, a) (OUT, (x) = mcs51_absent_xram(self, (a)))
-#define XWRITE(a)   (OUT, mcs51_absent_xram(self, (a)))
+#define XREAD(x, a) (OUT, (x) = mcs51_xread(self, (a)), left = self->left)
+#define XWRITE(a)   (OUT, mcs51_xwrite(self, (a), A), left = self->left)
+#define PUSHED(a, v)                                                                                                   \
+    {                                                                                                                  \
+        const unsigned p_ = (a);                                                                                       \
+        if (p_ - 1u < self->stack_top)                                                                                 \
+        {                                                                                                              \
+            mem[p_ + (p_ & 0x80u)] = U8(v);                                                                            \
+        }                                                                                                              \
+        else                                                                                                           \
+        {                                                                                                              \
+            OUT;                                                                                                       \
+            mcs51_push_beyond(self, p_, U8(v));                                                                        \
+        }                                                                                                              \
+    }
 #define DPTR_SET(v)                                                                                                    \
     {                                                                                                                  \
         const unsigned v_ = (v);                                                                                       \
@@ -139,6 +152,11 @@
         self->self_jump = true;                                                                                        \
         goto leave;                                                                                                    \
     }
+
+void mcs51_code_changed(mcs51_t* self, unsigned address)
+{
+    (void)self, (void)address; // nothing is made of it ahead of time
+}
 
 void mcs51_engine(mcs51_t* self)
 {

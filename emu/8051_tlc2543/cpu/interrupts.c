@@ -40,13 +40,13 @@ uint64_t mcs51_interrupt_next(mcs51_t* self, uint64_t now)
 static void push(mcs51_t* self, unsigned octet)
 {
     const uint8_t at = ++self->mem[SP];
-    if (at < 0x80u)
+    if (at - 1u < self->stack_top)
     {
-        self->mem[at] = (uint8_t)octet;
+        self->mem[at + (at & 0x80u)] = (uint8_t)octet;
     }
     else
     {
-        mcs51_absent_ram(self, at);
+        mcs51_push_beyond(self, at, (uint8_t)octet);
     }
 }
 

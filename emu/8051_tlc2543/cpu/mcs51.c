@@ -17,15 +17,22 @@ mcs51_t* mcs51_create(const mcs51_config_t* config)
     self->config = *config;
     memset(self->outside, 0xFF, sizeof self->outside);
     memset(self->out, 0xFF, sizeof self->out);
-    memset(self->code, MCS51_ABSENT_CODE, sizeof self->code);
-    memset(self->code, 0xFF, MCS51_FLASH); // erased flash
+    if (mcs51_memory_create(self) != 0)
+    {
+        mcs51_destroy(self);
+        return NULL;
+    }
     mcs51_reset(self, true);
     return self;
 }
 
 void mcs51_destroy(mcs51_t* self)
 {
-    free(self);
+    if (self)
+    {
+        free(self->xdata);
+        free(self);
+    }
 }
 
 void mcs51_reset(mcs51_t* self, bool power_on)
@@ -39,7 +46,7 @@ void mcs51_reset(mcs51_t* self, bool power_on)
     memset(mem + 0x80, 0, 0x80);
     if (power_on)
     {
-        memset(mem, 0, 0x80);
+        mcs51_memory_clear(self);
     }
     mem[SP] = 0x07;
     mem[PCON] = pof;
@@ -76,16 +83,6 @@ void mcs51_reset(mcs51_t* self, bool power_on)
     mcs51_look_at(self, now);
 }
 
-int mcs51_load(mcs51_t* self, uint16_t address, const uint8_t* octets, size_t count)
-{
-    if (address > MCS51_FLASH || count > MCS51_FLASH - address)
-    {
-        return -1;
-    }
-    memcpy(self->code + address, octets, count);
-    return 0;
-}
-
 void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const char* text, uint32_t detail)
 {
     if (self->once & once)
@@ -97,40 +94,6 @@ void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const ch
     {
         self->config.report.put(self->config.report.ctx, kind, text, detail,
                                 emu_clock_time(&self->config.clock, mcs51_cycle(self)));
-    }
-}
-
-uint8_t mcs51_absent_ram(mcs51_t* self, unsigned address)
-{
-    mcs51_report(self, EMU_GUEST_ERROR, ONCE_RAM,
-                 "no RAM at this address: the AT89S51 has 00h..7Fh (@Ri, stack; SDCC: build with --iram-size 128)",
-                 address);
-    return MCS51_ABSENT_RAM;
-}
-
-uint8_t mcs51_absent_code(mcs51_t* self, unsigned address)
-{
-    mcs51_report(self, EMU_GUEST_ERROR, ONCE_CODE, "code read beyond the 4096 octets of flash", address);
-    return MCS51_ABSENT_CODE;
-}
-
-uint8_t mcs51_absent_xram(mcs51_t* self, unsigned address)
-{
-    mcs51_report(self, EMU_NOT_MODELLED, ONCE_XRAM,
-                 "MOVX: the external bus is not modelled; reads FFh, writes are lost", address);
-    return MCS51_ABSENT_XRAM;
-}
-
-void mcs51_reserved_opcode(mcs51_t* self)
-{
-    const uint16_t address = (uint16_t)(self->pc - 1u);
-    if (address >= MCS51_FLASH)
-    {
-        mcs51_absent_code(self, address);
-    }
-    else
-    {
-        mcs51_report(self, EMU_GUEST_ERROR, ONCE_A5, "opcode A5h is reserved (run as a NOP), at this address", address);
     }
 }
 
@@ -284,19 +247,6 @@ void mcs51_set_pc(mcs51_t* self, uint16_t pc)
     self->halted = false;
 }
 
-uint8_t mcs51_iram(const mcs51_t* self, uint8_t address)
-{
-    return address < 0x80u ? self->mem[address] : MCS51_ABSENT_RAM;
-}
-
-void mcs51_set_iram(mcs51_t* self, uint8_t address, uint8_t value)
-{
-    if (address < 0x80u)
-    {
-        self->mem[address] = value;
-    }
-}
-
 uint8_t mcs51_sfr(mcs51_t* self, uint8_t address)
 {
     if (address < 0x80u)
@@ -320,9 +270,4 @@ void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value)
     {
         mcs51_write(self, address, value);
     }
-}
-
-uint8_t mcs51_code(const mcs51_t* self, uint16_t address)
-{
-    return self->code[address];
 }

@@ -1,5 +1,5 @@
 /// \file   cpu/mcs51_internal.h
-/// \brief  State of one AT89S51 and what its files offer each other. Not installed.
+/// \brief  State of one part and what its files offer each other. Not installed.
 ///
 /// Time: now = horizon - left. The engine only counts `left` down and comes back when it is spent; `horizon` is the next cycle at
 /// which anything can happen by itself. An instruction reads and writes SFRs and pins at its end (Intel: latch at S6P2 of the last
@@ -10,14 +10,14 @@
 #include "emu_8051/mcs51.h"
 #include "registers.h"
 
-#define MCS51_FLASH 4096u
 #define MCS51_NEVER UINT64_MAX
 
 /// What the data sheet leaves open, chosen once and named here.
-#define MCS51_ABSENT_SFR  0xFFu ///< read of an SFR address that the part does not have (silicon: undefined)
-#define MCS51_ABSENT_RAM  0xFFu ///< indirect read of 80..FF, where a 128-octet part has no RAM (silicon: undefined)
-#define MCS51_ABSENT_CODE 0xA5u ///< code fetched beyond the flash: the reserved opcode, so that a runaway shows at once
-#define MCS51_ABSENT_XRAM 0xFFu ///< MOVX reads: the external bus is not modelled
+#define MCS51_ABSENT_SFR 0xFFu ///< read of an SFR address that the part does not have (silicon: undefined)
+#define MCS51_ABSENT_RAM 0xFFu ///< indirect read of 80..FF, where a 128-octet part has no RAM (silicon: undefined)
+#define MCS51_ABSENT_CODE                                                                                              \
+    0xA5u ///< code fetched where there is none: the reserved opcode, so that a runaway shows at once
+#define MCS51_ABSENT_XRAM 0xFFu  ///< MOVX reads where there is no external RAM
 #define MCS51_WDT_CYCLES  16383u ///< overflow of the 14-bit watchdog, from the cycle in which it was last cleared
 #define MCS51_WDT_RESET   9u     ///< 98 oscillator periods of reset pulse, in whole machine cycles
 
@@ -39,8 +39,17 @@ enum
     ONCE_CODE = 2,
     ONCE_RAM = 4,
     ONCE_XRAM = 8,
-    ONCE_WDTRST = 16
+    ONCE_WDTRST = 16,
+    ONCE_STACK = 32,
+    ONCE_BUS = 64
 };
+
+typedef struct mcs51_part_info_t
+{
+    uint32_t flash_octets, ram_octets;
+    const uint8_t* sfrs; ///< bitmap of 80..FF
+    const char *no_ram, *no_sfr, *no_code;
+} mcs51_part_info_t;
 
 typedef enum uart_rx_state_t
 {
@@ -66,9 +75,12 @@ struct mcs51_t
     uint64_t horizon, until, instructions, interrupts;
     int32_t left;
     uint32_t pc;
-    uint32_t cy;        ///< 0 or 1
-    uint32_t fx;        ///< a ^ x ^ result of the last sum: AC is bit 4, OV is bit 7 ^ bit 8
-    uint8_t mem[256];   ///< 00-7F RAM, 80-FF SFR latches; ACC is kept here, CY AC OV P of PSW are not
+    uint32_t cy; ///< 0 or 1
+    uint32_t fx; ///< a ^ x ^ result of the last sum: AC is bit 4, OV is bit 7 ^ bit 8
+    uint8_t
+        mem[384]; ///< 00-7F RAM, 80-FF SFR latches, 100-17F RAM at 80-FF; ACC is kept here, CY AC OV P of PSW are not
+    uint32_t ram_octets, code_octets;
+    uint32_t stack_top; ///< a push to 1..stack_top needs no look
     uint8_t dptr;       ///< DP0L or DP1L, as AUXR1 selects
     uint8_t in_service; ///< bit 0 low, bit 1 high priority
     bool self_jump, halted;
@@ -88,6 +100,8 @@ struct mcs51_t
     uart_t uart;
     uint32_t once;
     uint8_t absent_sfr[16]; ///< bitmap: reported since reset
+    const mcs51_part_info_t* part;
+    uint8_t* xdata; ///< NULL: none
     uint8_t code[65536];
 };
 
@@ -101,9 +115,14 @@ uint8_t mcs51_read_latch(mcs51_t* self, unsigned address); ///< for read-modify-
 void mcs51_write(mcs51_t* self, unsigned address, uint8_t value);
 uint8_t mcs51_psw(const mcs51_t* self);
 
+int mcs51_memory_create(mcs51_t* self); ///< of the size that the configuration says; 0, or -1
+void mcs51_memory_clear(mcs51_t* self); ///< RAM, external too
 uint8_t mcs51_absent_ram(mcs51_t* self, unsigned address);
 uint8_t mcs51_absent_code(mcs51_t* self, unsigned address);
-uint8_t mcs51_absent_xram(mcs51_t* self, unsigned address);
+uint8_t mcs51_xread(mcs51_t* self, unsigned address);
+void mcs51_xwrite(mcs51_t* self, unsigned address, uint8_t value);
+void mcs51_push_beyond(mcs51_t* self, unsigned address, uint8_t value); ///< the stack is past stack_top
+void mcs51_code_changed(mcs51_t* self, unsigned address); ///< from code memory: what an engine made of it is void
 void mcs51_reserved_opcode(mcs51_t* self);
 void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const char* text, uint32_t detail);
 

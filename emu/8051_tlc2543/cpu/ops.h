@@ -6,7 +6,7 @@
 ///   OP_PAGE           the eight opcodes of AJMP or ACALL
 ///   PC                address of the next instruction; O1, O2 operand octets; A, CY (0 or 1), FX (see fx), RN
 ///   READ, LATCH(x,d)  x = direct d, seen from the pins or from the latches;  WRITE(d,v)
-///   IREAD(x,i)        x = RAM at i;  IWRITE(i,v);  CODE(x,a);  XREAD(x,a);  XWRITE(a)
+///   IREAD(x,i)        x = RAM at i;  IWRITE(i,v);  PUSHED(i,v): by the stack;  CODE(x,a);  XREAD(x,a);  XWRITE(a)
 ///   DPTR, DPTR_SET    the selected data pointer;  RETI_DONE;  RESERVED;  SPIN_IF(c): the instruction jumps to itself
 /// SPDX-License-Identifier: MIT
 
@@ -72,7 +72,7 @@
     {                                                                                                                  \
         const unsigned value_ = (v), at_ = U8(mem[SP] + 1u);                                                           \
         mem[SP] = U8(at_);                                                                                             \
-        IWRITE(at_, value_);                                                                                           \
+        PUSHED(at_, value_);                                                                                           \
     }
 #define POP(x)                                                                                                         \
     {                                                                                                                  \

@@ -1,5 +1,5 @@
 /// \file   sfr.c
-/// \brief  Special function registers of the AT89S51 (Atmel 2487D, table "SFR map") as the engine reads and writes them.
+/// \brief  Special function registers of the AT89S51 and AT89S52 (Atmel 2487D, 1919D, table "SFR map") as the engine reads and writes them.
 /// SPDX-License-Identifier: MIT
 #include "mcs51_internal.h"
 #include <limits.h>
@@ -54,11 +54,9 @@ uint8_t mcs51_psw(const mcs51_t* self)
     return (uint8_t)(self->cy << 7 | ac << 6 | (self->mem[PSW] & 0x3Au) | ov << 2 | (parity & 1u));
 }
 
-static bool absent(unsigned address)
+static bool absent(const mcs51_t* self, unsigned address)
 {
-    static const uint8_t present[16] = {0xBF, 0x7F, 0x01, 0x03, 0x45, 0x01, 0x01, 0x01,
-                                        0,    0,    0x01, 0,    0x01, 0,    0x01, 0};
-    return !((unsigned)present[(address - 0x80u) >> 3] >> (address & 7u) & 1u);
+    return !((unsigned)self->part->sfrs[(address - 0x80u) >> 3] >> (address & 7u) & 1u);
 }
 
 static void report_absent(mcs51_t* self, unsigned address)
@@ -68,7 +66,7 @@ static void report_absent(mcs51_t* self, unsigned address)
     if (!(*seen & bit))
     {
         *seen |= bit;
-        mcs51_report(self, EMU_GUEST_ERROR, 0, "the AT89S51 has no SFR at this address", address);
+        mcs51_report(self, EMU_GUEST_ERROR, 0, self->part->no_sfr, address);
     }
 }
 
@@ -78,7 +76,7 @@ static uint8_t read_synced(mcs51_t* self, unsigned address)
     {
         return mcs51_psw(self);
     }
-    if (absent(address))
+    if (absent(self, address))
     {
         report_absent(self, address);
         return MCS51_ABSENT_SFR;
@@ -156,7 +154,7 @@ void mcs51_write(mcs51_t* self, unsigned address, uint8_t value)
     uint8_t* const mem = self->mem;
     const uint8_t old = mem[address];
 
-    if (absent(address))
+    if (absent(self, address))
     {
         report_absent(self, address);
         return;

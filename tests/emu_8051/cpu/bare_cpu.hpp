@@ -1,5 +1,5 @@
 /// \file   bare_cpu.hpp
-/// \brief  One AT89S51 with nothing on its pins but the test.
+/// \brief  One part, an AT89S51 unless the test asks for another, with nothing on its pins but the test.
 /// SPDX-License-Identifier: MIT
 #ifndef BARE_CPU_HPP_INCLUDED
 #define BARE_CPU_HPP_INCLUDED
@@ -38,9 +38,9 @@ struct bare_cpu
     std::vector<report> reports;
     mcs51_t* cpu;
 
-    bare_cpu()
+    /// `config`: part, memory and choices; the callbacks are this rig's.
+    explicit bare_cpu(mcs51_config_t config = {})
     {
-        mcs51_config_t config{};
         config.clock = {11059200, 12};
         config.ctx = this;
         config.port = [](void* ctx, unsigned port, uint8_t out, uint8_t changed, uint64_t cycle) {

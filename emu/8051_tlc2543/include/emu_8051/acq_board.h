@@ -18,6 +18,10 @@ typedef struct acq_board_config_t
     uint64_t crystal_hz;  ///< 11059200; 1 to 1e9
     tlc2543_config_t adc; ///< analog, sampled and report included
     emu_report_t report;
+    mcs51_part_t part; ///< these as in mcs51_config_t
+    uint32_t code_octets;
+    uint32_t xdata_octets;
+    uint8_t stack_limit;
 } acq_board_config_t;
 
 /// 11.0592 MHz, the converter of tlc2543_default_config(), no reports.

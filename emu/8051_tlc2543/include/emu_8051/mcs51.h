@@ -1,5 +1,6 @@
 /// \file   emu_8051/mcs51.h
-/// \brief  MCS-51 CPU with the peripherals of an AT89S51 (Atmel 2487D): ports, timers 0 and 1, UART, interrupts, watchdog, dual DPTR.
+/// \brief  MCS-51 CPU with the peripherals of an AT89S51 (Atmel 2487D) or AT89S52 (Atmel 1919D): ports, timers, UART, interrupts,
+///         watchdog, dual DPTR, external code and data memory.
 ///
 /// Time is the machine cycle (12 oscillator periods), counted from reset release at create. All pins are levels the outside sets and
 /// latches the outside is told about; the UART drives P3.1 and samples P3.0 bit by bit. An instruction reads and writes SFRs and pins
@@ -23,6 +24,13 @@ typedef void (*mcs51_port_fn)(void* ctx, unsigned port, uint8_t out, uint8_t cha
 /// Before a pin is read, the outside may bring itself up to date (advance its events to `cycle`); may be NULL.
 typedef void (*mcs51_sync_fn)(void* ctx, uint64_t cycle);
 
+typedef enum mcs51_part_t
+{
+    MCS51_AT89S51 = 0, ///< 4 KB flash, 128 octets of RAM
+    MCS51_AT89S52      ///< 8 KB flash, 256 octets of RAM, timer 2
+} mcs51_part_t;
+
+/// All zero, but for the clock, is an AT89S51 alone.
 typedef struct mcs51_config_t
 {
     emu_clock_t clock; ///< hz = crystal, divider = 12; only to stamp reports
@@ -30,6 +38,12 @@ typedef struct mcs51_config_t
     mcs51_sync_fn sync;
     void* ctx; ///< for port and sync
     emu_report_t report;
+    mcs51_part_t part;
+    /// Flash and, behind it, external code memory, 65536 at most; 0: the flash alone. /EA low, where all of it is external, runs the
+    /// same. The bus does not show on the pins: P0, P2, /RD and /WR are not moved by it, but P0's latch reads FFh after a MOVX.
+    uint32_t code_octets;
+    uint32_t xdata_octets; ///< external RAM from 0000h, 65536 at most; 0: none, and a MOVX is reported
+    uint8_t stack_limit;   ///< last address that the stack may use, beyond it is reported; 0: the top of RAM
 } mcs51_config_t;
 
 typedef enum mcs51_stop_t
@@ -39,13 +53,13 @@ typedef enum mcs51_stop_t
     MCS51_POWER_DOWN ///< PCON.1: the oscillator is stopped until reset, or INT0 or INT1 goes low enabled; cycles pass, nothing counts
 } mcs51_stop_t;
 
-/// \return NULL when memory is out.
+/// \return NULL when memory is out, or config asks for a part or a size that there is not.
 EMU_API mcs51_t* mcs51_create(const mcs51_config_t* config);
 /// NULL is allowed.
 EMU_API void mcs51_destroy(mcs51_t* self);
-/// Reset pin: SFRs to their reset values, RAM kept. power_on also clears RAM (a choice; silicon is random) and sets POF.
+/// Reset pin: SFRs to their reset values, RAM kept. power_on also clears RAM, external too (a choice; silicon is random), and sets POF.
 EMU_API void mcs51_reset(mcs51_t* self, bool power_on);
-/// Code memory, 4096 octets on the AT89S51. \return 0, or -1 if it does not fit (nothing written).
+/// Into code memory. \return 0, or -1 if it does not fit (nothing written).
 EMU_API int mcs51_load(mcs51_t* self, uint16_t address, const uint8_t* octets, size_t count);
 
 /// Execute instructions until the cycle counter is at or past until_cycle (the last instruction may pass it by up to 3 cycles).
@@ -66,15 +80,18 @@ EMU_API void mcs51_set_pins(mcs51_t* self, unsigned port, uint8_t outside, uint6
 /// What the port drives now (latch AND alternate output).
 EMU_API uint8_t mcs51_port_out(const mcs51_t* self, unsigned port);
 
-/// Debug access without side effects, this and all below: program counter, internal RAM, SFRs, code memory.
+/// Debug access without side effects, this and all below: program counter, internal RAM, SFRs, code, external RAM.
 EMU_API uint16_t mcs51_pc(const mcs51_t* self);
 EMU_API void mcs51_set_pc(mcs51_t* self, uint16_t pc);                      ///< the next instruction is fetched there
-EMU_API uint8_t mcs51_iram(const mcs51_t* self, uint8_t address);           ///< 00..7F (FF on parts with 256 octets)
+EMU_API uint8_t mcs51_iram(const mcs51_t* self, uint8_t address);           ///< 00..7F, to FF on the AT89S52
 EMU_API void mcs51_set_iram(mcs51_t* self, uint8_t address, uint8_t value); ///< as mcs51_iram
 EMU_API uint8_t mcs51_sfr(mcs51_t* self,
                           uint8_t address); ///< 80..FF; ports: the latch; TL, TH: as of until_cycle of the run
 EMU_API void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value); ///< as mcs51_sfr
-EMU_API uint8_t mcs51_code(const mcs51_t* self, uint16_t address);         ///< 0000..0FFF
+EMU_API uint8_t mcs51_code(const mcs51_t* self, uint16_t address);         ///< A5h where there is none
+EMU_API void mcs51_set_code(mcs51_t* self, uint16_t address, uint8_t value);
+EMU_API uint8_t mcs51_xdata(const mcs51_t* self, uint16_t address); ///< FFh where there is none
+EMU_API void mcs51_set_xdata(mcs51_t* self, uint16_t address, uint8_t value);
 
 #ifdef __cplusplus
 }
