@@ -28,11 +28,28 @@ def parser() -> argparse.ArgumentParser:
         "run",
         help="run a scenario on an emulated board",
         description="Exit codes: 0 all expectations met, 1 one failed, 2 bad usage or scenario, "
-        "3 the firmware did something wrong (with --strict), 42 the simulated time ran out.",
+        "3 the firmware did something wrong (with --strict), 42 the simulated time ran out. "
+        "A scenario with a [matrix] is run once for each combination; its files are numbered F.1.csv, F.2.csv ..., "
+        "--json is a list, and the exit code the largest.",
     )
     r.add_argument("scenario", help="a TOML file, or the name of one that comes with the package (default, s3_paper)")
-    r.add_argument("--firmware", type=Path, metavar="F.ihx", help="another image than the scenario's")
+    r.add_argument(
+        "--firmware",
+        type=Path,
+        action="append",
+        default=[],
+        metavar="F.ihx",
+        help="another image than the scenario's; given again, one run each",
+    )
+    r.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="KEY=VALUE",
+        help="another value for a key of the scenario, for example link.baud=19200",
+    )
     r.add_argument("--json", type=Path, metavar="F", help="write the summary there ('-': standard output)")
+    r.add_argument("--junit", type=Path, metavar="F.xml", help="write a test case for every expectation")
     r.add_argument("--report", type=Path, metavar="F.html", help="write a report with plots")
     r.add_argument("--states", type=Path, metavar="F.csv", help="write every navigation state beside its truth")
     r.add_argument("--trace", type=Path, metavar="F.csv", help="write every edge of every traced wire")
@@ -119,13 +136,46 @@ def _run_command(options: argparse.Namespace) -> int:
         raise UsageError(f"--stop-s {options.stop_s}: must lie above 0 and up to 1e6")
     if options.seed is not None and not 0 <= options.seed < 2**63:
         raise UsageError(f"--seed {options.seed}: must lie in 0 .. 2^63 - 1")
-    loaded = scenario.load(scenario.find(options.scenario), options.firmware)
-    console = Console(stderr=True)
-    settings = run.Options(seed=options.seed, stop_s=options.stop_s, speed=_speed(options.speed), strict=options.strict)
+    settings = dict(map(scenario.setting, options.set))
+    settings |= {key: v for key, v in (("seed", options.seed), ("stop_s", options.stop_s)) if v is not None}
+    runs = scenario.load_all(scenario.find(options.scenario), options.firmware, settings)
+    if len(runs) > 1 and options.serial is not None:
+        raise UsageError(f"--serial: {options.scenario} makes {len(runs)} runs; choose one with --set and --firmware")
     handle = open_dds(options, publishes=True) if options.dds else None
+    results: list[tuple[str, run.Result]] = []
+    try:
+        for number, loaded in enumerate(runs, start=1):
+            result = _run_one(loaded, options, handle, number if len(runs) > 1 else None)
+            results.append((loaded.name, result))
+            if str(options.json) != "-":
+                print(report.text(result.summary), flush=True)
+    finally:
+        if handle is not None:
+            handle.close()
+    summaries = [result.summary for _, result in results]
+    if options.json is not None:
+        _write(options.json, run.to_json(summaries if len(runs) > 1 else summaries[0]))
+    if options.junit is not None:
+        from libins import junit
+
+        _write(options.junit, junit.xml(results, options.strict))
+    worst = max(result.exit_code for _, result in results)
+    if len(runs) > 1 and str(options.json) != "-":
+        passed = sum(result.exit_code == 0 for _, result in results)
+        print(f"{passed} of {len(runs)} runs passed")
+    return worst
+
+
+def _run_one(loaded: scenario.Scenario, options: argparse.Namespace, handle: Any, number: int | None) -> run.Result:
+    """One run and its files; number: which of several, for the files' names."""
+
+    def place(path: Path) -> Path:
+        return path if number is None else path.with_name(f"{path.stem}.{number}{path.suffix}")
+
+    console = Console(stderr=True)
+    settings = run.Options(speed=_speed(options.speed), strict=options.strict)
     if handle is not None:
-        source = loaded.path.stem
-        settings.publish = lambda state: handle.publish(state, source, time.time_ns())
+        settings.publish = lambda state: handle.publish(state, loaded.name, time.time_ns())
     trace_lines = ["t_ps,wire,level\n"]
     if options.trace is not None:
         settings.trace = lambda edges: trace_lines.extend(report.trace_lines(edges))
@@ -135,7 +185,6 @@ def _run_command(options: argparse.Namespace) -> int:
             print(f"uart: {settings.endpoint.label}", file=sys.stderr, flush=True)
             while options.wait and not settings.endpoint.connected():
                 time.sleep(0.01)
-        stop_s = options.stop_s or loaded.tables.stop_s
         with Progress(
             TextColumn("{task.description}"),
             BarColumn(),
@@ -145,27 +194,21 @@ def _run_command(options: argparse.Namespace) -> int:
             disable=not console.is_terminal,
             transient=True,
         ) as progress:
-            task = progress.add_task(loaded.path.stem, total=stop_s)
+            task = progress.add_task(loaded.name, total=loaded.tables.stop_s)
             settings.progress = lambda t, _: progress.update(task, completed=t)
             result = run.execute(loaded, settings)
     finally:
         if settings.endpoint is not None:
             settings.endpoint.close()
-        if handle is not None:
-            handle.close()
-    if options.json is not None:
-        _write(options.json, run.to_json(result.summary))
     if options.states is not None:
-        _write(options.states, report.states_csv(result.states))
+        _write(place(options.states), report.states_csv(result.states))
     if options.trace is not None:
-        _write(options.trace, "".join(trace_lines))
+        _write(place(options.trace), "".join(trace_lines))
     if options.report is not None:
         from libins import page  # matplotlib takes a second to import
 
-        _write(options.report, page.html(loaded, result))
-    if str(options.json) != "-":
-        print(report.text(result.summary))
-    return result.exit_code
+        _write(place(options.report), page.html(loaded, result))
+    return result
 
 
 def navd_path() -> Path:

@@ -22,6 +22,11 @@ def states_csv(states: Array) -> str:
     return out.getvalue()
 
 
+def report_line(report: dict[str, Any]) -> str:
+    """What the board had to say about the firmware, how often and since when."""
+    return f"{report['text']} ({report['detail']:#x}), {report['count']} times, first at {report['first_s']:.6f} s"
+
+
 def text(summary: dict[str, Any]) -> str:
     """The summary for a terminal."""
     speed = summary["speed"]
@@ -48,10 +53,7 @@ def text(summary: dict[str, Any]) -> str:
             f"dds       {summary['dds']['published']} published"
             + (f", {received} received" if received is not None else "")
         )
-    lines += [
-        f"{r['kind']}: {r['text']} ({r['detail']:#x}), {r['count']} times, first at {r['first_s']:.6f} s"
-        for r in summary["reports"]
-    ]
+    lines += [f"{r['kind']}: {report_line(r)}" for r in summary["reports"]]
     lines += [f"expected  {failure}" for failure in summary["failed"]]
     if summary["not_judged"]:
         lines.append(f"not judged, the host is outside: {', '.join(summary['not_judged'])}")

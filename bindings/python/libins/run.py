@@ -5,7 +5,7 @@ import json
 import math
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,7 @@ import numpy as np
 from libins import _run
 from libins.endpoint import Endpoint
 from libins.errors import UsageError
-from libins.scenario import Scenario, Sinusoid
+from libins.scenario import Expect, Scenario, Sinusoid
 
 PS_PER_S = 10**12
 SLICE_S = 0.1
@@ -21,10 +21,20 @@ SLICE_S = 0.1
 PACED_SLICE_S = 0.001
 INSIDE = ("link.", "attitude.", "age_s.")
 """Values that need the navigator inside the run; with a host outside, expectations on them are not judged."""
+BOUNDS = ("at_least", "at_most")
 AXES = ("roll", "pitch", "yaw")
 COLUMNS = {name: i for i, name in enumerate(_run.STATE_COLUMNS)}
 
 Array = np.ndarray[Any, Any]
+
+
+@dataclass(frozen=True)
+class Check:
+    """One expectation of the scenario, as judged."""
+
+    name: str
+    failure: str | None
+    judged: bool = True
 
 
 @dataclass
@@ -35,6 +45,7 @@ class Result:
     states: Array
     scans: Array
     exit_code: int
+    checks: list[Check] = field(default_factory=list)
 
 
 @dataclass
@@ -154,6 +165,7 @@ def execute(scenario: Scenario, options: Options) -> Result:
     states = np.concatenate(blocks) if blocks else np.empty((0, len(COLUMNS)))
     summary = {
         "scenario": scenario.path.name,
+        **({"matrix": dict(scenario.combination)} if scenario.combination else {}),
         "firmware": scenario.firmware.name,
         "sim_s": run.now_ps / PS_PER_S,
         "wall_s": wall_s,
@@ -164,20 +176,20 @@ def execute(scenario: Scenario, options: Options) -> Result:
         "trace_sha256": digest.hexdigest(),
         "reports": run.reports(),
     }
-    judged = [e for e in tables.expect if summary["link"] is not None or not e.value.startswith(INSIDE)]
-    failed = [text for text in (_failure(expect, summary) for expect in judged) if text]
-    summary["not_judged"] = [e.value for e in tables.expect if e not in judged]
+    checks = [_judged(expect, summary) for expect in tables.expect]
+    if tables.stop_samples is not None:
+        few = f"stop_samples: {len(states)} of {tables.stop_samples} samples came in {stop_s} s simulated"
+        checks.append(Check(f"stop_samples {tables.stop_samples}", None if reached_samples else few))
+    failed = [check.failure for check in checks if check.failure]
+    summary["not_judged"] = [e.value for e, check in zip(tables.expect, checks, strict=False) if not check.judged]
     summary["failed"] = failed
-    summary["verdict"] = "fail" if failed else "pass"
     code = 1 if failed else 0
     if tables.stop_samples is not None and not reached_samples:
         code = 42
-        failed.append(f"stop_samples: {len(states)} of {tables.stop_samples} samples came in {stop_s} s simulated")
-        summary["verdict"] = "fail"
     if options.strict and summary["reports"]:
         code = 3
-        summary["verdict"] = "fail"
-    return Result(summary, states, run.scans(), code)
+    summary["verdict"] = "fail" if code else "pass"
+    return Result(summary, states, run.scans(), code, checks)
 
 
 class Pacer:
@@ -248,7 +260,16 @@ def accuracy(states: Array) -> dict[str, Any]:
     }
 
 
-def _failure(expect: Any, summary: dict[str, Any]) -> str | None:
+def _judged(expect: Expect, summary: dict[str, Any]) -> Check:
+    """An expectation against the summary; with the host outside, what needs the navigator is not judged."""
+    bounds = [
+        f"{word.replace('_', ' ')} {getattr(expect, word):g}" for word in BOUNDS if getattr(expect, word) is not None
+    ]
+    judged = summary["link"] is not None or not expect.value.startswith(INSIDE)
+    return Check(f"{expect.value} {' and '.join(bounds)}", _failure(expect, summary) if judged else None, judged)
+
+
+def _failure(expect: Expect, summary: dict[str, Any]) -> str | None:
     """Why an expectation is not met, or None."""
     value: Any = summary
     for name in expect.value.split("."):
@@ -262,6 +283,6 @@ def _failure(expect: Any, summary: dict[str, Any]) -> str | None:
     return None
 
 
-def to_json(summary: dict[str, Any]) -> str:
-    """The summary as one JSON document; the same bytes for the same run, wall_s and speed aside."""
+def to_json(summary: dict[str, Any] | list[dict[str, Any]]) -> str:
+    """The summary, or those of a matrix, as JSON; the same bytes for the same run, wall_s and speed aside."""
     return json.dumps(summary, indent=2) + "\n"

@@ -5,8 +5,12 @@ docs/scenarios.md lists every key.
 """
 
 import csv
+import itertools
 import math
-from dataclasses import dataclass
+import re
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +24,8 @@ PACKAGE = Path(__file__).absolute().parent
 """In the build tree the modules are links: what was built lies beside the links."""
 FLASH_SIZE = 4096  # AT89S51
 BOARDS = ("8051_tlc2543",)
+MATRIX_LIMIT = 10_000
+"""Combinations of one scenario; more are a campaign's."""
 FORMS = ("one", "hist1", "hist2_fit", "hist2_opt", "hist3_fit", "hist3_opt")
 
 
@@ -118,6 +124,14 @@ class Scenario:
     image: list[tuple[int, bytes]]
     firmware: Path
     csv: np.ndarray[Any, Any] | None
+    combination: Mapping[str, Any]
+    """What the matrix sets, by dotted name."""
+
+    @property
+    def name(self) -> str:
+        """The file's, with the combination in brackets: default[link.baud=9600, seed=2]."""
+        inside = ", ".join(f"{key}={value}" for key, value in self.combination.items())
+        return self.path.stem + (f"[{inside}]" if inside else "")
 
 
 def find(name: str) -> Path:
@@ -127,16 +141,67 @@ def find(name: str) -> Path:
     return built_in if not path.exists() and path.parent == Path() and built_in.exists() else path
 
 
-def load(path: Path, firmware: Path | None = None) -> Scenario:
-    """Read and check a scenario and the files it names. Raises UsageError."""
+def load(
+    path: Path,
+    firmware: Path | None = None,
+    settings: Mapping[str, Any] | None = None,
+    combination: Mapping[str, Any] | None = None,
+) -> Scenario:
+    """Read and check a scenario and the files it names. Raises UsageError.
+
+    settings and combination replace keys by dotted name: from the command line, and from the scenario's own matrix.
+    """
     document = Document(path)
+    document.override(settings or {}, "--set")
+    document.override(combination or {}, "matrix")
+    document.table.pop("matrix", None)
     tables = document.parse(Tables, document.table)
     _check(document, tables)
     image_path = firmware or _resolve(document, ("firmware",), tables.firmware, PACKAGE / "firmware")
     table = None
     if tables.motion.kind == "csv":
         table = read_csv(_resolve(document, ("motion", "csv"), tables.motion.csv, None))
-    return Scenario(path, tables, hexfile.load(image_path, FLASH_SIZE), image_path, table)
+    return Scenario(path, tables, hexfile.load(image_path, FLASH_SIZE), image_path, table, combination or {})
+
+
+def load_all(path: Path, firmware: Sequence[Path] = (), settings: Mapping[str, Any] | None = None) -> list[Scenario]:
+    """Every combination of the [matrix] and of the images, all checked before any runs. Raises UsageError.
+
+    A key that settings or firmware give is no longer varied.
+    """
+    document = Document(path)
+    given = {*(settings or {}), *(("firmware",) if firmware else ())}
+    axes = {key: v for key, v in _axes(document, (), document.table.get("matrix", {})) if key not in given}
+    count = math.prod(map(len, axes.values())) * max(1, len(firmware))
+    if count > MATRIX_LIMIT:
+        raise document.refuse(("matrix",), f"makes {count} runs, but {MATRIX_LIMIT} is the most; shorten a list")
+    combinations = [dict(zip(axes, values, strict=True)) for values in itertools.product(*axes.values())]
+    loaded = [load(path, image, settings, each) for image in firmware or (None,) for each in combinations]
+    if len(firmware) > 1:
+        loaded = [replace(each, combination={"firmware": str(each.firmware), **each.combination}) for each in loaded]
+    return loaded
+
+
+def _axes(document: Document, key: tuple[str, ...], table: Any) -> Iterator[tuple[str, list[Any]]]:
+    """Dotted name and values of each list of the [matrix], written link.baud, "link.baud" or as a table."""
+    if isinstance(table, dict):
+        for name, value in table.items():
+            yield from _axes(document, (*key, *name.split(".")), value)
+    elif not isinstance(table, list) or not table:
+        raise document.refuse(("matrix", *key), f"found {table!r}, but a list of one value or more is needed")
+    else:
+        yield ".".join(key), table
+
+
+def setting(text: str) -> tuple[str, Any]:
+    """KEY=VALUE of the command line; the value as TOML would read it, or else a string. Raises UsageError."""
+    key, equals, value = text.partition("=")
+    if not equals or not re.fullmatch(r"[\w-]+(\.[\w-]+)*", key):
+        raise UsageError(f"--set {text}: KEY=VALUE is needed, for example link.baud=19200")
+    try:
+        return key, tomllib.loads(f"value = {value}")["value"]
+    except tomllib.TOMLDecodeError:
+        return key, value
 
 
 def _resolve(document: Document, key: tuple[str, ...], name: str, built_in: Path | None) -> Path:

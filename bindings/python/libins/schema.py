@@ -7,6 +7,7 @@ import re
 import tomllib
 import types
 import typing
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -29,6 +30,7 @@ class Document:
     def __init__(self, path: Path) -> None:
         """Read and parse. Raises UsageError for a missing file or a syntax error (tomllib says the line)."""
         self.path = path
+        self._overrides: dict[tuple[str, ...], str] = {}
         try:
             self.text = path.read_text(encoding="utf-8")
             self.table = tomllib.loads(self.text)
@@ -36,6 +38,30 @@ class Document:
             raise UsageError(f"{path}: cannot be read: {error.strerror}; give the path of a scenario file") from error
         except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
             raise UsageError(f"{path}: not TOML: {error}") from error
+
+    def override(self, values: Mapping[str, Any], origin: str) -> None:
+        """Put values in the place of keys by dotted name ("link.baud", "expect.0.at_most").
+
+        origin: the table of the file they come from, or the option. Raises UsageError for a name that leads through
+        something that is no table or array.
+        """
+        for dotted, value in values.items():
+            key = tuple(dotted.split("."))
+            in_file = f"{self.path}:{self.line_of((origin, *key))}: {origin}"
+            self._overrides[key] = in_file if origin in self.table else origin
+            place: Any = self.table
+            for i, name in enumerate(key):
+                if isinstance(place, list) and name.isdigit() and int(name) < len(place):
+                    step: Any = int(name)
+                elif isinstance(place, dict):
+                    step = name
+                else:
+                    found = f"an array of {len(place)}" if isinstance(place, list) else repr(place)
+                    raise self.refuse(key, f"{'.'.join(key[:i])} is {found}, so there is no {name!r} in it")
+                if i == len(key) - 1:
+                    place[step] = value
+                else:
+                    place = place[step] if isinstance(place, list) else place.setdefault(step, {})
 
     def line_of(self, key: tuple[str, ...]) -> int:
         """Line of a key, or of the table that should hold it; 1 when nothing is found."""
@@ -47,7 +73,7 @@ class Document:
                 section = tuple(part.strip() for part in header[1].split("."))
                 if section == names[: len(section)]:
                     best = number
-            elif (entry := re.match(r"\s*([\w.-]+)\s*=", line)) and names:
+            elif (entry := re.match(r'\s*"?([\w.-]+)"?\s*=', line)) and names:
                 full = section + tuple(entry[1].split("."))
                 if full == names[: len(full)]:
                     best = number
@@ -57,6 +83,9 @@ class Document:
 
     def refuse(self, key: tuple[str, ...], problem: str) -> UsageError:
         """The error for a key."""
+        for override, place in self._overrides.items():
+            if key[: len(override)] == override[: len(key)]:
+                return UsageError(f"{place}: {'.'.join(key)}: {problem}")
         return UsageError(f"{self.path}:{self.line_of(key)}: {'.'.join(key)}: {problem}")
 
     def parse(self, schema: type[T], table: Any, key: tuple[str, ...] = ()) -> T:
