@@ -1,4 +1,5 @@
-# add_acq_firmware(NAME PERIOD_US BAUD BLOCK_LEN SEQ): one image of acq.c, as ${CMAKE_BINARY_DIR}/firmware/NAME.ihx with its .map and .mem.
+# add_acq_firmware(NAME PERIOD_US BAUD BLOCK_LEN SEQ): one image of acq.c, as ${CMAKE_BINARY_DIR}/firmware/NAME.ihx with its .map and .mem,
+# and NAME_debug.ihx with its .cdb: SDCC 4.2 makes other code with --debug (a return jumps to the one RET, a last call is no jump).
 # Its options are described in acq_config.h, which refuses what cannot work. Timer 0 ticks about once a millisecond: of the whole
 # numbers of ticks that divide the period, the one nearest 1024 machine cycles a tick is taken.
 find_program(INS_SDCC sdcc)
@@ -43,21 +44,29 @@ function(add_acq_firmware name period_us baud block_len seq)
   set(flags -mmcs51 --model-small --std-c11 --Werror -I${core}/include -DINS_REAL_FLOAT -DINS_HS_MEM=__idata
             -DINS_HS_BLOCK_MAX=${block_len} -DACQ_PERIOD_US=${period_us} -DACQ_TICKS=${best_ticks} -DACQ_TICK_CYCLES=${best_tick}
             -DACQ_BAUD=${baud} -DACQ_BLOCK_LEN=${block_len} -DACQ_SEQ=${seq} -DACQ_REPLY_TICKS=${reply_ticks} -DACQ_RETRIES=3)
-  set(work ${CMAKE_CURRENT_BINARY_DIR}/firmware/${name})
   set(out ${CMAKE_BINARY_DIR}/firmware)
-  file(MAKE_DIRECTORY ${work} ${out})
-  add_custom_command(
-    OUTPUT ${out}/${name}.ihx
-    BYPRODUCTS ${out}/${name}.map ${out}/${name}.mem
-    COMMAND ${INS_SDCC} ${flags} -c ${here}/acq.c -o ${work}/acq.rel
-    COMMAND ${INS_SDCC} ${flags} -c ${core}/src/handshake_board.c -o ${work}/handshake_board.rel
-    COMMAND ${INS_SDCC} -mmcs51 --model-small --iram-size 128 --code-size 4096 --stack-size 20 ${work}/acq.rel ${work}/handshake_board.rel
-            -o ${work}/${name}.ihx
-    COMMAND ${CMAKE_COMMAND} -E copy ${work}/${name}.ihx ${work}/${name}.map ${work}/${name}.mem ${out}
-    DEPENDS ${here}/acq.c ${here}/acq_config.h ${core}/src/handshake_board.c
-            ${core}/include/ins/handshake.h ${core}/include/ins/config.h
-    COMMENT "SDCC ${name}.ihx: ${best_ticks} ticks of ${best_tick} cycles, ${baud} Bd, reply within ${reply_ticks} ticks"
-    VERBATIM)
-  add_custom_target(firmware_${name} DEPENDS ${out}/${name}.ihx)
+  foreach(image ${name} ${name}_debug)
+    set(work ${CMAKE_CURRENT_BINARY_DIR}/firmware/${image})
+    file(MAKE_DIRECTORY ${work} ${out})
+    set(debug "")
+    set(products ${work}/${image}.ihx ${work}/${image}.map ${work}/${image}.mem)
+    if(image MATCHES "_debug$")
+      set(debug --debug)
+      list(APPEND products ${work}/${image}.cdb)
+    endif()
+    list(TRANSFORM products REPLACE "^${work}" "${out}" OUTPUT_VARIABLE copies)
+    add_custom_command(
+      OUTPUT ${copies}
+      COMMAND ${INS_SDCC} ${flags} ${debug} -c ${here}/acq.c -o ${work}/acq.rel
+      COMMAND ${INS_SDCC} ${flags} ${debug} -c ${core}/src/handshake_board.c -o ${work}/handshake_board.rel
+      COMMAND ${INS_SDCC} -mmcs51 --model-small ${debug} --iram-size 128 --code-size 4096 --stack-size 20 ${work}/acq.rel
+              ${work}/handshake_board.rel -o ${work}/${image}.ihx
+      COMMAND ${CMAKE_COMMAND} -E copy ${products} ${out}
+      DEPENDS ${here}/acq.c ${here}/acq_config.h ${core}/src/handshake_board.c
+              ${core}/include/ins/handshake.h ${core}/include/ins/config.h
+      COMMENT "SDCC ${image}.ihx: ${best_ticks} ticks of ${best_tick} cycles, ${baud} Bd, reply within ${reply_ticks} ticks"
+      VERBATIM)
+  endforeach()
+  add_custom_target(firmware_${name} DEPENDS ${out}/${name}.ihx ${out}/${name}_debug.ihx)
   add_dependencies(firmware_8051 firmware_${name})
 endfunction()
