@@ -134,6 +134,10 @@ mcs51_stop_t acq_board_run(acq_board_t* self, emu_time_t t)
         const uint64_t event = emu_clock_tick(&self->clock, emu_sched_next(self->sched));
         stop = mcs51_run(self->cpu, event < end ? event : end);
         sync_to(self, mcs51_cycle(self->cpu));
+        if (stop == MCS51_STOPPED)
+        {
+            return stop;
+        }
     }
     emu_sched_advance(self->sched, t);
     return stop;

@@ -11,7 +11,7 @@
 #define A    mem[ACC]
 #define CY   cy
 #define FX   fx
-#define RN   bank[N]
+#define RI   bank[N]
 #define O1   ((unsigned)code[pc - LENGTH + 1u])
 #define O2   ((unsigned)code[pc - LENGTH + 2u])
 #define DPTR (mem[self->dptr] | (unsigned)mem[self->dptr + 1u] << 8)
@@ -51,6 +51,14 @@
     OP_IN_PAGE(opcode, 7, length, cycles, __VA_ARGS__)
 #define OP_IN_PAGE(opcode, n, length, cycles, ...)                                                                     \
     OP((opcode) + 0x20 * (n), length, cycles, enum {N = (n)}; __VA_ARGS__)
+
+#define RN_GET(x) (x = bank[N])
+#define RN_SET(x) (bank[N] = U8(x))
+#define BRANCH_IF(condition, o)                                                                                        \
+    if (condition)                                                                                                     \
+    {                                                                                                                  \
+        BRANCH(o);                                                                                                     \
+    }
 
 #define READ_BY(limit, function, x, d)                                                                                 \
     {                                                                                                                  \

@@ -48,6 +48,7 @@ static void push(mcs51_t* self, unsigned octet)
     {
         mcs51_push_beyond(self, at, (uint8_t)octet);
     }
+    mcs51_seen(self, MCS51_IRAM, at, (uint8_t)octet, true);
 }
 
 bool mcs51_interrupt(mcs51_t* self, uint64_t now)
@@ -84,10 +85,14 @@ bool mcs51_interrupt(mcs51_t* self, uint64_t now)
     }
     self->in_service |= is_high ? 2u : 1u;
     self->mem[PCON] &= (uint8_t)~PCON_IDL;
+    if (self->observer.vector)
+    {
+        self->observer.vector(self->observer.ctx, irq, (uint16_t)self->pc, now);
+    }
+    self->left -= 2;
     push(self, self->pc & 0xFFu);
     push(self, self->pc >> 8);
     self->pc = 8u * irq + 3u;
-    self->left -= 2;
     ++self->interrupts;
     return true;
 }

@@ -60,6 +60,7 @@ void mcs51_reset(mcs51_t* self, bool power_on)
     self->fx = 0;
     self->dptr = DP0L;
     self->in_service = 0;
+    self->passed_pc = NO_PC;
     self->self_jump = false;
     self->halted = false;
     self->timer_at = now;
@@ -182,7 +183,7 @@ mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
     for (;;)
     {
         const uint64_t now = mcs51_cycle(self);
-        if (self->mem[PCON] & PCON_PD)
+        if ((self->mem[PCON] & PCON_PD) && !self->stop)
         {
             if (now < self->until)
             {
@@ -195,6 +196,11 @@ mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
         if (limit >= self->overflow_at)
         {
             mcs51_timers_sync(self, limit);
+        }
+        if (self->stop)
+        {
+            self->stop = false;
+            return MCS51_STOPPED;
         }
         if (now >= self->until)
         {
@@ -219,7 +225,14 @@ mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
             self->left = 0;
             continue;
         }
-        mcs51_engine(self);
+        if (self->watched)
+        {
+            mcs51_plain(self);
+        }
+        else
+        {
+            mcs51_engine(self);
+        }
         if (self->self_jump)
         {
             self->self_jump = false;
@@ -229,7 +242,7 @@ mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
             {
                 return MCS51_HALTED;
             }
-            const int32_t turns = (self->left + 1) / 2; // 2 cycles each
+            const int32_t turns = self->watched ? 1 : (self->left + 1) / 2; // 2 cycles each
             self->left -= 2 * turns;
             self->instructions += (uint64_t)turns;
         }
@@ -244,6 +257,7 @@ uint16_t mcs51_pc(const mcs51_t* self)
 void mcs51_set_pc(mcs51_t* self, uint16_t pc)
 {
     self->pc = pc;
+    self->passed_pc = NO_PC;
     self->halted = false;
 }
 

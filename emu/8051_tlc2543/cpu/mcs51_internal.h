@@ -51,6 +51,17 @@ typedef struct mcs51_part_info_t
     const char *no_ram, *no_sfr, *no_code;
 } mcs51_part_info_t;
 
+#define NO_PC 0x10000u ///< no address
+
+/// mcs51_t.marks, by address of an instruction.
+enum
+{
+    MARK_BREAK = 1,
+    MARK_COVERED = 2,
+    MARK_NOT_TAKEN = 4,
+    MARK_TAKEN = 8
+};
+
 typedef enum uart_rx_state_t
 {
     RX_IDLE,   ///< looking for a fall of RXD
@@ -102,11 +113,23 @@ struct mcs51_t
     uint8_t absent_sfr[16]; ///< bitmap: reported since reset
     const mcs51_part_info_t* part;
     uint8_t* xdata; ///< NULL: none
+    mcs51_observer_t observer;
+    uint32_t breaks;    ///< breakpoints set
+    uint32_t passed_pc; ///< the run stopped at this breakpoint: the instruction is executed next time; NO_PC
+    bool covering;
+    bool watched; ///< an observer, a breakpoint or coverage: the plain engine runs
+    bool stop;    ///< return MCS51_STOPPED at the next boundary
+    uint8_t marks[65536];
     uint8_t code[65536];
 };
 
 /// Engine: execute until left <= 0, or until a jump to itself is reached (self_jump; it has not been executed).
 void mcs51_engine(mcs51_t* self);
+/// The same one instruction after the other, watched; also until a breakpoint or observer stops it (stop).
+void mcs51_plain(mcs51_t* self);
+/// An instruction at pc is about to be executed. \return false: stop before it.
+bool mcs51_enter(mcs51_t* self);
+void mcs51_seen(mcs51_t* self, mcs51_space_t space, uint16_t address, uint8_t value, bool write);
 
 /// An SFR is plain memory to the engine while left > limit.
 extern const int32_t mcs51_read_limit[256], mcs51_latch_limit[256], mcs51_write_limit[256];

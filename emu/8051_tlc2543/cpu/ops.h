@@ -4,7 +4,8 @@
 /// An engine includes this inside its switch (or table) and supplies:
 ///   OP, OP2, OP8      one opcode; two with N = 0, 1 (@Ri); eight with N = 0..7 (Rn)
 ///   OP_PAGE           the eight opcodes of AJMP or ACALL
-///   PC                address of the next instruction; O1, O2 operand octets; A, CY (0 or 1), FX (see fx), RN
+///   PC                address of the next instruction; O1, O2 operand octets; A, CY (0 or 1), FX (see fx)
+///   RN_GET(x), RN_SET(x)  register N;  RI  register N as a pointer;  BRANCH_IF(c, o)  conditional branch
 ///   READ, LATCH(x,d)  x = direct d, seen from the pins or from the latches;  WRITE(d,v)
 ///   IREAD(x,i)        x = RAM at i;  IWRITE(i,v);  PUSHED(i,v): by the stack;  CODE(x,a);  XREAD(x,a);  XWRITE(a)
 ///   DPTR, DPTR_SET    the selected data pointer;  RETI_DONE;  RESERVED;  SPIN_IF(c): the instruction jumps to itself
@@ -36,30 +37,27 @@
     {                                                                                                                  \
         const unsigned a_ = (a), x_ = (x);                                                                             \
         CARRY(a_ < x_);                                                                                                \
-        if (a_ != x_)                                                                                                  \
-        {                                                                                                              \
-            BRANCH(rel);                                                                                               \
-        }                                                                                                              \
+        BRANCH_IF(a_ != x_, rel);                                                                                      \
     }
 /// The operand forms of A op x: immediate, direct, @Ri, Rn.
 #define ALU(base, operation)                                                                                           \
     OP(base + 4, 2, 1, operation(O1))                                                                                  \
     OP(base + 5, 2, 1, unsigned v; READ(v, O1); operation(v))                                                          \
-    OP2(base + 6, 1, 1, unsigned v; IREAD(v, RN); operation(v))                                                        \
-    OP8(base + 8, 1, 1, operation(RN))
+    OP2(base + 6, 1, 1, unsigned v; IREAD(v, RI); operation(v))                                                        \
+    OP8(base + 8, 1, 1, unsigned v; RN_GET(v); operation(v))
 #define LOGIC(base, op)                                                                                                \
     OP(base + 2, 2, 1, unsigned v; LATCH(v, O1); WRITE(O1, v op A))                                                    \
     OP(base + 3, 3, 2, unsigned v; LATCH(v, O1); WRITE(O1, v op O2))                                                   \
     OP(base + 4, 2, 1, A = U8(A op O1))                                                                                \
     OP(base + 5, 2, 1, unsigned v; READ(v, O1); A = U8(A op v))                                                        \
-    OP2(base + 6, 1, 1, unsigned v; IREAD(v, RN); A = U8(A op v))                                                      \
-    OP8(base + 8, 1, 1, A = U8(A op RN))
+    OP2(base + 6, 1, 1, unsigned v; IREAD(v, RI); A = U8(A op v))                                                      \
+    OP8(base + 8, 1, 1, unsigned v; RN_GET(v); A = U8(A op v))
 /// INC and DEC by d of direct, @Ri, Rn.
 #define STEP(base, d)                                                                                                  \
     OP(base + 4, 1, 1, A = U8(A + d))                                                                                  \
     OP(base + 5, 2, 1, unsigned v; LATCH(v, O1); WRITE(O1, v + d))                                                     \
-    OP2(base + 6, 1, 1, unsigned v; IREAD(v, RN); IWRITE(RN, v + d))                                                   \
-    OP8(base + 8, 1, 1, RN = U8(RN + d))
+    OP2(base + 6, 1, 1, unsigned v; IREAD(v, RI); IWRITE(RI, v + d))                                                   \
+    OP8(base + 8, 1, 1, unsigned v; RN_GET(v); RN_SET(v + d))
 #define BIT_READ(b)                                                                                                    \
     unsigned v;                                                                                                        \
     READ(v, BIT_BYTE(b));                                                                                              \
@@ -110,19 +108,19 @@ OP(0x73, 1, 2, GOTO(A + DPTR))
 OP(0x80, 2, 2, SPIN_IF(O1 == 0xFE) BRANCH(O1))
 
 OP(0x10, 3, 2, const unsigned rel = O2; unsigned v; LATCH(v, BIT_BYTE(O1));
-    if (v & BIT_MASK(O1)) { WRITE(BIT_BYTE(O1), v & ~BIT_MASK(O1)); BRANCH(rel); })
-OP(0x20, 3, 2, BIT_READ(O1); if (v) { BRANCH(O2); })
-OP(0x30, 3, 2, BIT_READ(O1); if (!v) { BRANCH(O2); })
-OP(0x40, 2, 2, if (CY) { BRANCH(O1); })
-OP(0x50, 2, 2, if (!CY) { BRANCH(O1); })
-OP(0x60, 2, 2, if (!A) { BRANCH(O1); })
-OP(0x70, 2, 2, if (A) { BRANCH(O1); })
+    if (v & BIT_MASK(O1)) { WRITE(BIT_BYTE(O1), v & ~BIT_MASK(O1)) } BRANCH_IF(v & BIT_MASK(O1), rel))
+OP(0x20, 3, 2, BIT_READ(O1); BRANCH_IF(v, O2))
+OP(0x30, 3, 2, BIT_READ(O1); BRANCH_IF(!v, O2))
+OP(0x40, 2, 2, BRANCH_IF(CY, O1))
+OP(0x50, 2, 2, BRANCH_IF(!CY, O1))
+OP(0x60, 2, 2, BRANCH_IF(!A, O1))
+OP(0x70, 2, 2, BRANCH_IF(A, O1))
 OP(0xB4, 3, 2, CJNE(A, O1, O2))
 OP(0xB5, 3, 2, unsigned v; READ(v, O1); CJNE(A, v, O2))
-OP2(0xB6, 3, 2, unsigned v; IREAD(v, RN); CJNE(v, O1, O2))
-OP8(0xB8, 3, 2, CJNE(RN, O1, O2))
-OP(0xD5, 3, 2, const unsigned rel = O2; unsigned v; LATCH(v, O1); v = U8(v - 1u); WRITE(O1, v); if (v) { BRANCH(rel); })
-OP8(0xD8, 2, 2, RN = U8(RN - 1u); if (RN) { BRANCH(O1); })
+OP2(0xB6, 3, 2, unsigned v; IREAD(v, RI); CJNE(v, O1, O2))
+OP8(0xB8, 3, 2, unsigned v; RN_GET(v); CJNE(v, O1, O2))
+OP(0xD5, 3, 2, const unsigned rel = O2; unsigned v; LATCH(v, O1); v = U8(v - 1u); WRITE(O1, v); BRANCH_IF(v, rel))
+OP8(0xD8, 2, 2, unsigned v; RN_GET(v); v = U8(v - 1u); RN_SET(v); BRANCH_IF(v, O1))
 
 STEP(0x00, 1u)
 STEP(0x10, 0xFFu)
@@ -140,9 +138,9 @@ OP(0xC4, 1, 1, A = U8(A << 4 | A >> 4))
 OP(0xE4, 1, 1, A = 0)
 OP(0xF4, 1, 1, A = U8(~A))
 OP(0xA3, 1, 2, DPTR_SET(DPTR + 1u))
-OP(0xA4, 1, 4, const unsigned p = (unsigned)A * mem[B]; A = U8(p); mem[B] = U8(p >> 8); CARRY(0); SET_OV(p > 0xFFu))
+OP(0xA4, 1, 4, unsigned p; READ(p, B); p *= A; A = U8(p); WRITE(B, p >> 8); CARRY(0); SET_OV(p > 0xFFu))
 // Divisor 0: OV, and A and B are undefined; they are kept.
-OP(0x84, 1, 4, const unsigned n = A, d = mem[B]; CARRY(0); SET_OV(d == 0); if (d) { A = U8(n / d); mem[B] = U8(n % d); })
+OP(0x84, 1, 4, const unsigned n = A; unsigned d; READ(d, B); CARRY(0); SET_OV(d == 0); if (d) { A = U8(n / d); WRITE(B, n % d); })
 OP(0xD4, 1, 1, unsigned r = A;
     if ((r & 15u) > 9u || (FX & 0x10u)) { r += 6u; }
     if (r > 0xFFu) { CARRY(1u); }
@@ -165,31 +163,31 @@ OP(0xD3, 1, 1, CARRY(1u))
 
 OP(0x74, 2, 1, A = U8(O1))
 OP(0xE5, 2, 1, unsigned v; READ(v, O1); A = U8(v))
-OP2(0xE6, 1, 1, unsigned v; IREAD(v, RN); A = U8(v))
-OP8(0xE8, 1, 1, A = RN)
+OP2(0xE6, 1, 1, unsigned v; IREAD(v, RI); A = U8(v))
+OP8(0xE8, 1, 1, unsigned v; RN_GET(v); A = U8(v))
 OP(0x75, 3, 2, WRITE(O1, O2))
 OP(0xF5, 2, 1, WRITE(O1, A))
 OP(0x85, 3, 2, unsigned v; READ(v, O1); WRITE(O2, v))
-OP2(0x86, 2, 2, unsigned v; IREAD(v, RN); WRITE(O1, v))
-OP8(0x88, 2, 2, WRITE(O1, RN))
-OP2(0x76, 2, 1, IWRITE(RN, O1))
-OP2(0xA6, 2, 2, unsigned v; READ(v, O1); IWRITE(RN, v))
-OP2(0xF6, 1, 1, IWRITE(RN, A))
-OP8(0x78, 2, 1, RN = U8(O1))
-OP8(0xA8, 2, 2, unsigned v; READ(v, O1); RN = U8(v))
-OP8(0xF8, 1, 1, RN = A)
+OP2(0x86, 2, 2, unsigned v; IREAD(v, RI); WRITE(O1, v))
+OP8(0x88, 2, 2, unsigned v; RN_GET(v); WRITE(O1, v))
+OP2(0x76, 2, 1, IWRITE(RI, O1))
+OP2(0xA6, 2, 2, unsigned v; READ(v, O1); IWRITE(RI, v))
+OP2(0xF6, 1, 1, IWRITE(RI, A))
+OP8(0x78, 2, 1, RN_SET(O1))
+OP8(0xA8, 2, 2, unsigned v; READ(v, O1); RN_SET(v))
+OP8(0xF8, 1, 1, RN_SET(A))
 OP(0x90, 3, 2, DPTR_SET(O1 * 256u + O2))
 OP(0xC0, 2, 2, unsigned v; READ(v, O1); PUSH(v))
 OP(0xD0, 2, 2, unsigned v; POP(v); WRITE(O1, v))
 OP(0xC5, 2, 1, const unsigned a = A; unsigned v; LATCH(v, O1); A = U8(v); WRITE(O1, a))
-OP2(0xC6, 1, 1, const unsigned a = A; unsigned v; IREAD(v, RN); A = U8(v); IWRITE(RN, a))
-OP8(0xC8, 1, 1, const uint8_t a = A; A = RN; RN = a)
-OP2(0xD6, 1, 1, const unsigned a = A; unsigned v; IREAD(v, RN); A = U8((a & 0xF0u) | (v & 15u)); IWRITE(RN, (v & 0xF0u) | (a & 15u)))
+OP2(0xC6, 1, 1, const unsigned a = A; unsigned v; IREAD(v, RI); A = U8(v); IWRITE(RI, a))
+OP8(0xC8, 1, 1, const unsigned a = A; unsigned v; RN_GET(v); A = U8(v); RN_SET(a))
+OP2(0xD6, 1, 1, const unsigned a = A; unsigned v; IREAD(v, RI); A = U8((a & 0xF0u) | (v & 15u)); IWRITE(RI, (v & 0xF0u) | (a & 15u)))
 OP(0x83, 1, 2, CODE(A, U16(A + PC)))
 OP(0x93, 1, 2, CODE(A, U16(A + DPTR)))
 OP(0xE0, 1, 2, XREAD(A, DPTR))
-OP2(0xE2, 1, 2, XREAD(A, mem[P2] * 256u + RN))
+OP2(0xE2, 1, 2, XREAD(A, mem[P2] * 256u + RI))
 OP(0xF0, 1, 2, XWRITE(DPTR))
-OP2(0xF2, 1, 2, XWRITE(mem[P2] * 256u + RN))
+OP2(0xF2, 1, 2, XWRITE(mem[P2] * 256u + RI))
 OP(0xA5, 1, 1, RESERVED)
 // clang-format on

@@ -32,6 +32,7 @@ EMU_API acq_board_t* acq_board_create(const acq_board_config_t* config, emu_sche
 EMU_API void acq_board_destroy(acq_board_t* self);
 /// Run firmware and events up to instant t; sched->now is t afterwards, or up to 3 machine cycles later where an instruction that
 /// touched a pin ended there. A power-down passes in time like the rest; MCS51_HALTED only says that nothing more will happen.
+/// MCS51_STOPPED: returned where the CPU stopped, before t; run again to go on.
 EMU_API mcs51_stop_t acq_board_run(acq_board_t* self, emu_time_t t);
 /// The board's own CPU, to load and to inspect.
 EMU_API mcs51_t* acq_board_cpu(acq_board_t* self);

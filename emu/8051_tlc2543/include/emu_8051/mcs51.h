@@ -50,7 +50,8 @@ typedef enum mcs51_stop_t
 {
     MCS51_RAN = 0, ///< reached until_cycle
     MCS51_HALTED, ///< a jump to itself with interrupts off (EA = 0): nothing can ever happen; time still passes if run again
-    MCS51_POWER_DOWN ///< PCON.1: the oscillator is stopped until reset, or INT0 or INT1 goes low enabled; cycles pass, nothing counts
+    MCS51_POWER_DOWN, ///< PCON.1: the oscillator is stopped until reset, or INT0 or INT1 goes low enabled; cycles pass, nothing counts
+    MCS51_STOPPED ///< by mcs51_stop(), an observer or a breakpoint; run again to go on
 } mcs51_stop_t;
 
 /// \return NULL when memory is out, or config asks for a part or a size that there is not.
@@ -92,6 +93,42 @@ EMU_API uint8_t mcs51_code(const mcs51_t* self, uint16_t address);         ///< 
 EMU_API void mcs51_set_code(mcs51_t* self, uint16_t address, uint8_t value);
 EMU_API uint8_t mcs51_xdata(const mcs51_t* self, uint16_t address); ///< FFh where there is none
 EMU_API void mcs51_set_xdata(mcs51_t* self, uint16_t address, uint8_t value);
+
+typedef enum mcs51_space_t
+{
+    MCS51_IRAM,  ///< 00..FF of internal RAM, direct or indirect
+    MCS51_SFR,   ///< 80..FF
+    MCS51_XDATA, ///< MOVX
+    MCS51_CODE   ///< MOVC; fetches are not told
+} mcs51_space_t;
+
+/// What the program does, as it does it. Any function may be NULL. None may change the CPU but by mcs51_stop() and mcs51_shorten().
+typedef struct mcs51_observer_t
+{
+    void* ctx;
+    /// Before each instruction, also one that MCS51_HALTED leaves unexecuted. \return false: mcs51_run() returns MCS51_STOPPED with
+    /// it not executed; it is told again in the next run.
+    bool (*step)(void* ctx, uint16_t pc, uint64_t cycle);
+    /// Data memory and SFRs that the instruction names (A, PSW, SP, pointers as implied operands are not told), and what calls and
+    /// interrupts do to the stack. A read-modify-write is told as both. SFRs and pins: value read or written; cycle: of the access.
+    void (*access)(void* ctx, mcs51_space_t space, uint16_t address, uint8_t value, bool write, uint64_t cycle);
+    /// An interrupt takes the place of the instruction at from_pc; its handler begins 2 cycles later. irq: bit of IE, vector 8 irq + 3.
+    void (*vector)(void* ctx, unsigned irq, uint16_t from_pc, uint64_t cycle);
+} mcs51_observer_t;
+
+/// The observer is copied; NULL takes it away. Without one nothing is paid for it.
+EMU_API void mcs51_observe(mcs51_t* self, const mcs51_observer_t* observer);
+/// mcs51_run() returns MCS51_STOPPED at the next instruction boundary: from inside a callback, or before the run.
+EMU_API void mcs51_stop(mcs51_t* self);
+/// Stop before the instruction at pc is executed, once each time it is reached; running again executes it.
+/// \return 0, or -1 where there is no code memory.
+EMU_API int mcs51_set_break(mcs51_t* self, uint16_t pc, bool on);
+/// On: forget what was covered, and note it from here. Off: what was noted stays.
+EMU_API void mcs51_cover(mcs51_t* self, bool on);
+/// \return whether an instruction at pc was executed.
+EMU_API bool mcs51_covered(const mcs51_t* self, uint16_t pc);
+/// Conditional branch at pc: bit 0: was not taken once, bit 1: was taken once. 0 for other instructions.
+EMU_API unsigned mcs51_branches(const mcs51_t* self, uint16_t pc);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,92 @@
+/// \file   watch.c
+/// \brief  What a user watches: observers, breakpoints, coverage.
+/// SPDX-License-Identifier: MIT
+#include "mcs51_internal.h"
+
+static void set_watched(mcs51_t* self)
+{
+    const mcs51_observer_t* const o = &self->observer;
+    self->watched = o->step || o->access || self->breaks || self->covering;
+    mcs51_look_at(self, mcs51_cycle(self)); // the other engine goes on
+}
+
+void mcs51_observe(mcs51_t* self, const mcs51_observer_t* observer)
+{
+    self->observer = observer ? *observer : (mcs51_observer_t){0};
+    set_watched(self);
+}
+
+void mcs51_stop(mcs51_t* self)
+{
+    self->stop = true;
+    mcs51_look_at(self, mcs51_cycle(self));
+}
+
+int mcs51_set_break(mcs51_t* self, uint16_t pc, bool on)
+{
+    if (pc >= self->code_octets)
+    {
+        return -1;
+    }
+    uint8_t* const mark = &self->marks[pc];
+    if (on != ((*mark & MARK_BREAK) != 0))
+    {
+        *mark ^= MARK_BREAK;
+        self->breaks += on ? 1u : UINT32_MAX;
+        set_watched(self);
+    }
+    return 0;
+}
+
+void mcs51_cover(mcs51_t* self, bool on)
+{
+    if (on)
+    {
+        for (size_t pc = 0; pc < sizeof self->marks; ++pc)
+        {
+            self->marks[pc] &= MARK_BREAK;
+        }
+    }
+    self->covering = on;
+    set_watched(self);
+}
+
+bool mcs51_covered(const mcs51_t* self, uint16_t pc)
+{
+    return self->marks[pc] & MARK_COVERED;
+}
+
+unsigned mcs51_branches(const mcs51_t* self, uint16_t pc)
+{
+    return (self->marks[pc] & (unsigned)(MARK_NOT_TAKEN | MARK_TAKEN)) / MARK_NOT_TAKEN;
+}
+
+bool mcs51_enter(mcs51_t* self)
+{
+    const uint16_t pc = (uint16_t)self->pc;
+    if ((self->marks[pc] & MARK_BREAK) && self->passed_pc != pc)
+    {
+        self->passed_pc = pc;
+        self->stop = true;
+        return false;
+    }
+    if (self->observer.step && !self->observer.step(self->observer.ctx, pc, mcs51_cycle(self)))
+    {
+        self->stop = true;
+        return false;
+    }
+    self->passed_pc = NO_PC;
+    if (self->covering)
+    {
+        self->marks[pc] |= MARK_COVERED;
+    }
+    return true;
+}
+
+void mcs51_seen(mcs51_t* self, mcs51_space_t space, uint16_t address, uint8_t value, bool write)
+{
+    if (self->observer.access)
+    {
+        self->observer.access(self->observer.ctx, space, address, value, write, mcs51_cycle(self));
+    }
+}
