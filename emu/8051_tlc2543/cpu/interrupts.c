@@ -1,5 +1,5 @@
 /// \file   interrupts.c
-/// \brief  Five sources, two priorities (MCS-51 hardware description, "Interrupts"). Unit: machine cycle.
+/// \brief  Five sources, six on the AT89S52, two priorities (MCS-51 hardware description, "Interrupts"). Unit: machine cycle.
 ///
 /// A flag that is up at cycle t is polled in the cycle that begins at t; the vector is taken at the first instruction boundary after it
 /// unless the instruction that ends there is RETI or wrote IE or IP. The hardware LCALL takes 2 cycles: 3 to 8 from flag to handler.
@@ -8,7 +8,7 @@
 
 void mcs51_raise(mcs51_t* self, unsigned irq, unsigned sfr, uint8_t flag, uint64_t at)
 {
-    const uint8_t shared = sfr == SCON ? SCON_RI | SCON_TI : flag;
+    const uint8_t shared = irq == IRQ_SERIAL ? SCON_RI | SCON_TI : irq == IRQ_T2 ? mcs51_t2_requests(self) : flag;
     if (!(self->mem[sfr] & shared))
     {
         self->flag_at[irq] = at;
@@ -26,9 +26,10 @@ static unsigned requests(const mcs51_t* self, unsigned* high)
         return 0;
     }
     const unsigned flags = (tcon >> 1 & 1u) | (tcon >> 4 & 2u) | (tcon >> 1 & 4u) | (tcon >> 4 & 8u) |
-                           ((mem[SCON] & (SCON_RI | SCON_TI)) ? 16u : 0u);
+                           ((mem[SCON] & (SCON_RI | SCON_TI)) ? 16u : 0u) |
+                           (mem[T2CON] && (mem[T2CON] & mcs51_t2_requests(self)) ? 32u : 0u);
     *high = flags & ie & mem[IP];
-    return self->in_service ? *high : flags & ie & 0x1Fu;
+    return self->in_service ? *high : flags & ie & 0x3Fu;
 }
 
 uint64_t mcs51_interrupt_next(mcs51_t* self, uint64_t now)
@@ -76,8 +77,8 @@ bool mcs51_interrupt(mcs51_t* self, uint64_t now)
     {
         ++irq;
     }
-    // The vector clears the flag, except the serial port's two and a level-triggered external one.
-    static const uint8_t cleared[IRQ_COUNT] = {0x02, 0x20, 0x08, 0x80, 0};
+    // The vector clears the flag, except those of the serial port and timer 2 and a level-triggered external one.
+    static const uint8_t cleared[IRQ_COUNT] = {0x02, 0x20, 0x08, 0x80, 0, 0};
     const bool external = irq == IRQ_INT0 || irq == IRQ_INT1;
     if (!external || (self->mem[TCON] & (cleared[irq] >> 1)))
     {

@@ -71,8 +71,9 @@ void mcs51_reset(mcs51_t* self, bool power_on)
     self->wdt_armed = false;
     self->once = 0;
     memset(self->absent_sfr, 0, sizeof self->absent_sfr);
-    self->alternate = 0xFF;
-    self->p3_due = MCS51_NEVER;
+    memset(self->alternate, 0xFF, sizeof self->alternate);
+    self->p1_watched = 0;
+    self->pins_due = MCS51_NEVER;
     self->p3_sampled = mcs51_port_pins(self, 3);
     mcs51_uart_reset(self);
     for (unsigned i = 0; i < 4; ++i)
@@ -142,19 +143,7 @@ static void set_horizon(mcs51_t* self, uint64_t now)
     uint64_t next = earlier(self->until, now + LONGEST_SLICE);
     next = earlier(next, mcs51_interrupt_next(self, now));
     next = earlier(next, earlier(self->periph_at, self->wdt_due));
-    self->overflow_at = MCS51_NEVER;
-    for (unsigned n = 0; n < 2; ++n)
-    {
-        const uint8_t enable = (uint8_t)(IE_EA | 0x02u << 2 * n), flag = (uint8_t)(0x20u << 2 * n);
-        if ((self->mem[IE] & enable) == enable && !(self->mem[TCON] & flag))
-        {
-            self->overflow_at = earlier(self->overflow_at, mcs51_timer_next(self, n));
-        }
-    }
-    if (self->overflow_at != MCS51_NEVER)
-    {
-        next = earlier(next, self->overflow_at + 1u); // the flag is polled in the next cycle
-    }
+    next = earlier(next, mcs51_overflow_next(self));
     self->horizon = next;
     self->left = next > now ? (int32_t)(next - now) : 0;
 }

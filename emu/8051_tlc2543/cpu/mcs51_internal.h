@@ -29,6 +29,7 @@ enum
     IRQ_INT1,
     IRQ_T1,
     IRQ_SERIAL,
+    IRQ_T2,
     IRQ_COUNT
 };
 
@@ -71,7 +72,14 @@ typedef enum uart_rx_state_t
     RX_SHIFT   ///< mode 0
 } uart_rx_state_t;
 
-/// Due times count ticks of the baud clock: cycles (mode 0), half oscillator periods of 6 a cycle (mode 2), T1 overflows (modes 1, 3).
+typedef struct mcs51_counter_t
+{
+    uint64_t left;   ///< counts to the next overflow
+    uint64_t period; ///< counts from one overflow to the next
+} mcs51_counter_t;
+
+/// Due times count ticks of the baud clock: cycles (mode 0), half oscillator periods of 6 a cycle (mode 2), overflows of T1 or T2 (modes
+/// 1, 3).
 typedef struct uart_t
 {
     uint64_t tx_due, rx_due; ///< MCS51_NEVER: nothing under way
@@ -98,16 +106,18 @@ struct mcs51_t
     uint64_t flag_at[IRQ_COUNT]; ///< cycle in which the request flag went up: polled in the next one
     uint64_t gate_at;            ///< end of the last RETI or write to IE or IP: no vector at this boundary
     uint64_t timer_at;           ///< TL0 TH0 TL1 TH1 are true at this cycle
-    uint64_t t1_overflows;
+    uint64_t t1_overflows, t2_overflows;
+    uint64_t t2_told;     ///< overflows of timer 2 that the clock on P1.0 shows
     uint64_t overflow_at; ///< next overflow that requests an interrupt
     uint64_t periph_at;   ///< next cycle at which the ports or the UART do something
     uint64_t frozen;      ///< cycles spent in power-down, in which no clock ran
     uint64_t wdt_due;
     bool wdt_armed; ///< 1Eh was written to WDTRST
     uint8_t outside[4], out[4];
-    uint8_t alternate; ///< alternate outputs of P3: TXD, and RXD in mode 0
-    uint8_t p3_sampled;
-    uint64_t p3_due; ///< cycle at which a change on P3 has been sampled
+    uint8_t alternate[4]; ///< alternate outputs: P3 TXD, and RXD in mode 0; P1.0 the clock of timer 2
+    uint8_t p3_sampled, p1_sampled;
+    uint8_t p1_watched; ///< pins of P1 that timer 2 looks at
+    uint64_t pins_due;  ///< cycle at which a change on P3 or P1 has been sampled
     uart_t uart;
     uint32_t once;
     uint8_t absent_sfr[16]; ///< bitmap: reported since reset
@@ -164,13 +174,25 @@ void mcs51_sync(mcs51_t* self, uint64_t t);
 void mcs51_plan(mcs51_t* self);
 
 void mcs51_timers_sync(mcs51_t* self, uint64_t t);
-void mcs51_timers_fell(mcs51_t* self, uint8_t fell);          ///< falls on T0, T1 were sampled
-uint64_t mcs51_timer_next(const mcs51_t* self, unsigned n);   ///< next overflow that sets TFn
+void mcs51_timers_fell(mcs51_t* self, uint8_t fell); ///< falls on T0, T1 were sampled
+/// First boundary that an overflow which requests an interrupt can bring; overflow_at becomes the cycle of the overflow.
+uint64_t mcs51_overflow_next(mcs51_t* self);
+/// \return overflows within k counts; the first is after *first.
+uint64_t mcs51_advance(mcs51_counter_t* c, uint64_t k, uint64_t* first);
 uint64_t mcs51_t1_time(const mcs51_t* self, uint64_t number); ///< cycle of T1's overflow of that number
+
+void mcs51_t2_sync(mcs51_t* self, uint64_t from, uint64_t cycles);
+uint8_t mcs51_t2_requests(const mcs51_t* self); ///< flags of T2CON that request an interrupt
+uint64_t mcs51_t2_next(const mcs51_t* self);    ///< next overflow that sets TF2
+uint64_t mcs51_t2_time(const mcs51_t* self, uint64_t number);
+uint64_t mcs51_t2_edge_time(const mcs51_t* self); ///< of the clock on P1.0
+void mcs51_t2_edge(mcs51_t* self, uint64_t at);
+void mcs51_t2_sampled(mcs51_t* self, uint8_t pins, uint64_t at);
+void mcs51_t2_mode_changed(mcs51_t* self, uint64_t now);
 
 void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at);
 uint8_t mcs51_port_pins(const mcs51_t* self, unsigned port);
-void mcs51_alternate(mcs51_t* self, uint8_t mask, bool level, uint64_t at);
+void mcs51_alternate(mcs51_t* self, unsigned port, uint8_t mask, bool level, uint64_t at);
 void mcs51_level_requests(mcs51_t* self, uint64_t at);
 void mcs51_pins_sample(mcs51_t* self, uint64_t at);
 
@@ -182,5 +204,6 @@ void mcs51_uart_rx(mcs51_t* self, uint64_t at);
 void mcs51_uart_rxd_fell(mcs51_t* self);
 void mcs51_uart_sbuf(mcs51_t* self, uint8_t value, uint64_t now);
 void mcs51_uart_scon(mcs51_t* self, uint8_t old, uint64_t now);
+void mcs51_uart_t2con(mcs51_t* self, uint8_t old); ///< RCLK or TCLK may have changed
 
 #endif // MCS51_INTERNAL_H_INCLUDED

@@ -1,5 +1,5 @@
 /// \file   cpu/registers.h
-/// \brief  Special function registers of the AT89S51 and their bits (Atmel 2487D). Not installed.
+/// \brief  Special function registers of the AT89S51 and AT89S52 and their bits (Atmel 2487D, 1919D). Not installed.
 /// SPDX-License-Identifier: MIT
 #ifndef MCS51_REGISTERS_H_INCLUDED
 #define MCS51_REGISTERS_H_INCLUDED
@@ -29,6 +29,12 @@ enum
     IE = 0xA8,
     P3 = 0xB0,
     IP = 0xB8,
+    T2CON = 0xC8,
+    T2MOD = 0xC9,
+    RCAP2L = 0xCA,
+    RCAP2H = 0xCB,
+    TL2 = 0xCC,
+    TH2 = 0xCD,
     PSW = 0xD0,
     ACC = 0xE0,
     B = 0xF0
@@ -41,6 +47,7 @@ enum
     PCON_POF = 0x10,
     PCON_SMOD = 0x80,
     AUXR_WDIDLE = 0x10,
+    IE_ET2 = 0x20,
     IE_EA = 0x80,
     SCON_RI = 0x01,
     SCON_TI = 0x02,
@@ -48,6 +55,16 @@ enum
     SCON_TB8 = 0x08,
     SCON_REN = 0x10,
     SCON_SM2 = 0x20,
+    T2CON_CAPTURE = 0x01, ///< CP/RL2
+    T2CON_COUNTER = 0x02, ///< C/T2
+    T2CON_TR2 = 0x04,
+    T2CON_EXEN2 = 0x08,
+    T2CON_TCLK = 0x10,
+    T2CON_RCLK = 0x20,
+    T2CON_EXF2 = 0x40,
+    T2CON_TF2 = 0x80,
+    T2MOD_DCEN = 0x01,
+    T2MOD_T2OE = 0x02,
     P3_RXD = 0x01,
     P3_TXD = 0x02
 };

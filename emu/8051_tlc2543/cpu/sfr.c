@@ -126,7 +126,8 @@ static void write_requests(mcs51_t* self, unsigned address, uint8_t value, uint6
                    {TCON, 0x20, IRQ_T0},
                    {TCON, 0x08, IRQ_INT1},
                    {TCON, 0x80, IRQ_T1},
-                   {SCON, SCON_RI | SCON_TI, IRQ_SERIAL}};
+                   {SCON, SCON_RI | SCON_TI, IRQ_SERIAL},
+                   {T2CON, T2CON_TF2 | T2CON_EXF2, IRQ_T2}};
     const uint8_t old = self->mem[address];
     for (unsigned i = 0; i < sizeof request / sizeof request[0]; ++i)
     {
@@ -201,6 +202,15 @@ void mcs51_write(mcs51_t* self, unsigned address, uint8_t value)
     case SCON:
         write_requests(self, address, value, now);
         mcs51_uart_scon(self, old, now);
+        break;
+    case T2CON:
+        write_requests(self, address, value, now);
+        mcs51_t2_mode_changed(self, now);
+        mcs51_uart_t2con(self, old);
+        break;
+    case T2MOD:
+        mem[address] = value;
+        mcs51_t2_mode_changed(self, now);
         break;
     case IE:
     case IP:

@@ -2,7 +2,7 @@
 /// \brief  Ports 0 to 3: quasi-bidirectional latches, alternate functions of P3, and the order of everything that happens by itself.
 ///
 /// A pin is latch AND outside. P3 inputs are sampled once a machine cycle (S5P2): a change at cycle c is seen by INT0/1, T0/1, RXD
-/// and the gates at c + 1, and one that is taken back within its cycle is not seen.
+/// and the gates at c + 1, and one that is taken back within its cycle is not seen. So are T2 and T2EX on P1, where there is a timer 2.
 /// SPDX-License-Identifier: MIT
 #include "../cpu/mcs51_internal.h"
 
@@ -18,7 +18,7 @@ static uint64_t earlier(uint64_t a, uint64_t b)
 
 static uint8_t drive(const mcs51_t* self, unsigned port)
 {
-    return (uint8_t)(self->mem[P0 + 0x10u * port] & (port == 3 ? self->alternate : 0xFFu));
+    return (uint8_t)(self->mem[P0 + 0x10u * port] & self->alternate[port]);
 }
 
 uint8_t mcs51_port_pins(const mcs51_t* self, unsigned port)
@@ -26,12 +26,15 @@ uint8_t mcs51_port_pins(const mcs51_t* self, unsigned port)
     return (uint8_t)(drive(self, port) & self->outside[port]);
 }
 
-static void p3_changed(mcs51_t* self, uint64_t at)
+static void inputs_changed(mcs51_t* self, unsigned port, uint64_t at)
 {
-    if (self->p3_due == MCS51_NEVER && ((mcs51_port_pins(self, 3) ^ self->p3_sampled) & SAMPLED))
+    const unsigned changed = port == 3   ? (mcs51_port_pins(self, 3) ^ self->p3_sampled) & SAMPLED
+                             : port == 1 ? (mcs51_port_pins(self, 1) ^ self->p1_sampled) & self->p1_watched
+                                         : 0u;
+    if (changed && self->pins_due == MCS51_NEVER)
     {
-        self->p3_due = at + 1u;
-        self->periph_at = earlier(self->periph_at, self->p3_due);
+        self->pins_due = at + 1u;
+        self->periph_at = earlier(self->periph_at, self->pins_due);
         mcs51_look_at(self, at + 1u);
     }
 }
@@ -40,20 +43,18 @@ void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at)
 {
     const uint8_t out = drive(self, port), changed = out ^ self->out[port];
     self->out[port] = out;
-    if (port == 3)
-    {
-        p3_changed(self, at);
-    }
+    inputs_changed(self, port, at);
     if (changed && self->config.port)
     {
         self->config.port(self->config.ctx, port, out, changed, at);
     }
 }
 
-void mcs51_alternate(mcs51_t* self, uint8_t mask, bool level, uint64_t at)
+void mcs51_alternate(mcs51_t* self, unsigned port, uint8_t mask, bool level, uint64_t at)
 {
-    self->alternate = (uint8_t)(level ? self->alternate | mask : self->alternate & ~mask);
-    mcs51_port_drive(self, 3, at);
+    uint8_t* const out = &self->alternate[port];
+    *out = (uint8_t)(level ? *out | mask : *out & ~mask);
+    mcs51_port_drive(self, port, at);
 }
 
 /// A level-triggered request flag follows its pin.
@@ -81,7 +82,7 @@ void mcs51_pins_sample(mcs51_t* self, uint64_t at)
 {
     const uint8_t pins = mcs51_port_pins(self, 3), fell = (uint8_t)(self->p3_sampled & ~pins);
     mcs51_timers_sync(self, at); // with the old gates
-    self->p3_due = MCS51_NEVER;
+    self->pins_due = MCS51_NEVER;
     self->p3_sampled = pins;
     for (unsigned n = 0; n < 2; ++n)
     {
@@ -96,11 +97,16 @@ void mcs51_pins_sample(mcs51_t* self, uint64_t at)
     {
         mcs51_uart_rxd_fell(self);
     }
+    if (self->p1_watched)
+    {
+        mcs51_t2_sampled(self, mcs51_port_pins(self, 1), at);
+    }
 }
 
 void mcs51_plan(mcs51_t* self)
 {
-    self->periph_at = earlier(self->p3_due, earlier(mcs51_uart_tx_time(self), mcs51_uart_rx_time(self)));
+    self->periph_at = earlier(earlier(self->pins_due, mcs51_t2_edge_time(self)),
+                              earlier(mcs51_uart_tx_time(self), mcs51_uart_rx_time(self)));
 }
 
 void mcs51_sync(mcs51_t* self, uint64_t t)
@@ -109,9 +115,13 @@ void mcs51_sync(mcs51_t* self, uint64_t t)
     {
         const uint64_t at = self->periph_at;
         self->periph_at = MCS51_NEVER; // callbacks may come back here
-        if (self->p3_due <= at)
+        if (self->pins_due <= at)
         {
             mcs51_pins_sample(self, at);
+        }
+        else if (mcs51_t2_edge_time(self) <= at)
+        {
+            mcs51_t2_edge(self, at);
         }
         else if (mcs51_uart_tx_time(self) <= at)
         {
@@ -137,15 +147,16 @@ static void wake(mcs51_t* self)
 
 void mcs51_set_pins(mcs51_t* self, unsigned port, uint8_t outside, uint64_t cycle)
 {
-    if (port == 3)
+    const bool sampled = port == 3 || (port == 1 && self->p1_watched);
+    if (sampled)
     {
         mcs51_sync(self, cycle);
     }
     self->outside[port & 3u] = outside;
-    if (port == 3)
+    if (sampled)
     {
         wake(self);
-        p3_changed(self, cycle);
+        inputs_changed(self, port, cycle);
     }
 }
 

@@ -11,12 +11,6 @@ enum
     TMOD_GATE = 0x08
 };
 
-typedef struct counter_t
-{
-    uint64_t left;   ///< counts to the next overflow
-    uint64_t period; ///< counts from one overflow to the next
-} counter_t;
-
 static unsigned mode(const mcs51_t* self, unsigned n)
 {
     return self->mem[TMOD] >> 4 * n & 3u;
@@ -43,24 +37,24 @@ static bool counts_cycles(const mcs51_t* self, unsigned n)
     return enabled(self, n) && !(self->mem[TMOD] >> 4 * n & TMOD_COUNTER);
 }
 
-static counter_t counter(const mcs51_t* self, unsigned n)
+static mcs51_counter_t counter(const mcs51_t* self, unsigned n)
 {
     const unsigned tl = self->mem[TL0 + n], th = self->mem[TH0 + n];
     switch (mode(self, n))
     {
     case 0:
-        return (counter_t){0x2000u - (th << 5 | (tl & 0x1Fu)), 0x2000u};
+        return (mcs51_counter_t){0x2000u - (th << 5 | (tl & 0x1Fu)), 0x2000u};
     case 1:
-        return (counter_t){0x10000u - (th << 8 | tl), 0x10000u};
+        return (mcs51_counter_t){0x10000u - (th << 8 | tl), 0x10000u};
     case 2:
-        return (counter_t){0x100u - tl, 0x100u - th};
+        return (mcs51_counter_t){0x100u - tl, 0x100u - th};
     default:
-        return (counter_t){0x100u - tl, 0x100u};
+        return (mcs51_counter_t){0x100u - tl, 0x100u};
     }
 }
 
 /// Counts after the last overflow, or without one, back into the registers. Mode 0 clears the upper bits of TL ([U]: indeterminate).
-static void store(mcs51_t* self, unsigned n, const counter_t* c)
+static void store(mcs51_t* self, unsigned n, const mcs51_counter_t* c)
 {
     uint8_t* const tl = &self->mem[TL0 + n];
     uint8_t* const th = &self->mem[TH0 + n];
@@ -80,8 +74,7 @@ static void store(mcs51_t* self, unsigned n, const counter_t* c)
     }
 }
 
-/// \return overflows within k counts; the first is after *first.
-static uint64_t advance(counter_t* c, uint64_t k, uint64_t* first)
+uint64_t mcs51_advance(mcs51_counter_t* c, uint64_t k, uint64_t* first)
 {
     *first = c->left;
     if (k < c->left)
@@ -101,9 +94,9 @@ static void overflowed(mcs51_t* self, unsigned n, uint64_t at)
 
 static void count(mcs51_t* self, unsigned n, uint64_t k, uint64_t from)
 {
-    counter_t c = counter(self, n);
+    mcs51_counter_t c = counter(self, n);
     uint64_t first;
-    const uint64_t overflows = advance(&c, k, &first);
+    const uint64_t overflows = mcs51_advance(&c, k, &first);
     store(self, n, &c);
     if (n == 1)
     {
@@ -135,11 +128,12 @@ void mcs51_timers_sync(mcs51_t* self, uint64_t t)
             count(self, n, k, from);
         }
     }
+    mcs51_t2_sync(self, from, k);
     if (th0_runs(self))
     {
-        counter_t c = {0x100u - self->mem[TH0], 0x100u};
+        mcs51_counter_t c = {0x100u - self->mem[TH0], 0x100u};
         uint64_t first;
-        if (advance(&c, k, &first))
+        if (mcs51_advance(&c, k, &first))
         {
             overflowed(self, 1, from + first);
         }
@@ -158,13 +152,37 @@ void mcs51_timers_fell(mcs51_t* self, uint8_t fell)
     }
 }
 
-uint64_t mcs51_timer_next(const mcs51_t* self, unsigned n)
+static uint64_t timer_next(const mcs51_t* self, unsigned n)
 {
     if (n == 1 && split(self))
     {
         return th0_runs(self) ? self->timer_at + 0x100u - self->mem[TH0] : MCS51_NEVER;
     }
     return counts_cycles(self, n) ? self->timer_at + counter(self, n).left : MCS51_NEVER;
+}
+
+uint64_t mcs51_overflow_next(mcs51_t* self)
+{
+    const unsigned ie = self->mem[IE];
+    uint64_t boundary = MCS51_NEVER;
+    self->overflow_at = MCS51_NEVER;
+    for (unsigned n = 0; n < 2 && (ie & IE_EA); ++n)
+    {
+        const uint64_t at =
+            (ie >> (1 + 2 * n) & 1u) && !(self->mem[TCON] & 0x20u << 2 * n) ? timer_next(self, n) : MCS51_NEVER;
+        if (at < self->overflow_at)
+        {
+            self->overflow_at = at;
+            boundary = at + 1u; // the flag is polled in the next cycle
+        }
+    }
+    if ((ie & IE_EA) && (ie & IE_ET2) && !(self->mem[T2CON] & T2CON_TF2))
+    {
+        const uint64_t at = mcs51_t2_next(self);
+        self->overflow_at = at < self->overflow_at ? at : self->overflow_at;
+        boundary = at < boundary ? at : boundary;
+    }
+    return boundary;
 }
 
 uint64_t mcs51_t1_time(const mcs51_t* self, uint64_t number)
@@ -177,6 +195,6 @@ uint64_t mcs51_t1_time(const mcs51_t* self, uint64_t number)
     {
         return MCS51_NEVER;
     }
-    const counter_t c = counter(self, 1);
+    const mcs51_counter_t c = counter(self, 1);
     return self->timer_at + c.left + (number - self->t1_overflows - 1u) * c.period;
 }

@@ -4,7 +4,7 @@
 /// The divider by 16 of the transmitter runs free: a frame starts at the next rollover after SBUF is written and TI goes up as the stop
 /// bit begins, the 10th rollover in mode 1. The receiver's divider starts at the fall of RXD; each bit is the majority of samples at
 /// ticks 7, 8, 9 of 16, and a start bit that is then high is dropped. Baud ticks: overflows of timer 1 (modes 1, 3) or two oscillator
-/// periods (mode 2), taken by two while SMOD is 0.
+/// periods (mode 2), taken by two while SMOD is 0; on the AT89S52 TCLK and RCLK put overflows of timer 2 in the place of timer 1's.
 /// SPDX-License-Identifier: MIT
 #include "../cpu/mcs51_internal.h"
 
@@ -19,26 +19,33 @@ static unsigned uart_mode(const mcs51_t* self)
     return self->mem[SCON] >> 6;
 }
 
-/// Baud-clock ticks per 1/16 bit.
-static unsigned unit(const mcs51_t* self)
+/// `clock` is T2CON_TCLK or T2CON_RCLK, for the transmitter or the receiver, here and below.
+static bool by_t2(const mcs51_t* self, unsigned clock)
 {
-    return self->mem[PCON] & PCON_SMOD ? 1u : 2u;
+    return (self->mem[T2CON] & clock) && (uart_mode(self) & 1u);
+}
+
+/// Baud-clock ticks per 1/16 bit.
+static unsigned unit(const mcs51_t* self, unsigned clock)
+{
+    return (self->mem[PCON] & PCON_SMOD) || by_t2(self, clock) ? 1u : 2u;
 }
 
 /// Tick number at the cycle the timers are synced to.
-static uint64_t tick(const mcs51_t* self)
+static uint64_t tick(const mcs51_t* self, bool t2)
 {
     const uint64_t cycle = self->timer_at - self->frozen;
-    return uart_mode(self) == 2 ? TICKS_PER_CYCLE * cycle : self->t1_overflows;
+    return uart_mode(self) == 2 ? TICKS_PER_CYCLE * cycle : t2 ? self->t2_overflows : self->t1_overflows;
 }
 
-/// First multiple of n ticks after now.
-static uint64_t rollover(const mcs51_t* self, unsigned n)
+/// First multiple of n/16 bit after now.
+static uint64_t rollover(const mcs51_t* self, unsigned clock, unsigned n)
 {
-    return (tick(self) / n + 1u) * n;
+    n *= unit(self, clock);
+    return (tick(self, by_t2(self, clock)) / n + 1u) * n;
 }
 
-static uint64_t cycle_of(const mcs51_t* self, uint64_t due)
+static uint64_t cycle_of(const mcs51_t* self, unsigned clock, uint64_t due)
 {
     if (due == MCS51_NEVER)
     {
@@ -51,18 +58,18 @@ static uint64_t cycle_of(const mcs51_t* self, uint64_t due)
     case 2:
         return (due + TICKS_PER_CYCLE - 1u) / TICKS_PER_CYCLE + self->frozen;
     default:
-        return mcs51_t1_time(self, due);
+        return by_t2(self, clock) ? mcs51_t2_time(self, due) : mcs51_t1_time(self, due);
     }
 }
 
 uint64_t mcs51_uart_tx_time(const mcs51_t* self)
 {
-    return cycle_of(self, self->uart.tx_due);
+    return cycle_of(self, T2CON_TCLK, self->uart.tx_due);
 }
 
 uint64_t mcs51_uart_rx_time(const mcs51_t* self)
 {
-    return cycle_of(self, self->uart.rx_due);
+    return cycle_of(self, T2CON_RCLK, self->uart.rx_due);
 }
 
 static void rx_stop(uart_t* u)
@@ -95,7 +102,7 @@ void mcs51_uart_sbuf(mcs51_t* self, uint8_t value, uint64_t now)
     const unsigned ninth = mode == 1 ? 1u : (unsigned)self->mem[SCON] / SCON_TB8 & 1u;
     u->tx_frame = 1u << 10 | ninth << 9 | (unsigned)value << 1;
     u->tx_bits = mode == 1 ? 10 : 11;
-    u->tx_due = rollover(self, 16u * unit(self));
+    u->tx_due = rollover(self, T2CON_TCLK, 16u);
 }
 
 /// Mode 0: one bit a cycle; the shift clock falls and rises within it, RXD is driven or sampled in between.
@@ -105,16 +112,16 @@ static void shift_out(mcs51_t* self, uint64_t at)
     if (u->tx_bit == SHIFT_BITS)
     {
         u->tx_due = MCS51_NEVER;
-        mcs51_alternate(self, P3_RXD, true, at);
+        mcs51_alternate(self, 3, P3_RXD, true, at);
         mcs51_raise(self, IRQ_SERIAL, SCON, SCON_TI, at);
         return;
     }
     const bool level = u->tx_frame >> u->tx_bit & 1u;
     ++u->tx_bit;
     ++u->tx_due;
-    mcs51_alternate(self, P3_RXD, level, at);
-    mcs51_alternate(self, P3_TXD, false, at);
-    mcs51_alternate(self, P3_TXD, true, at);
+    mcs51_alternate(self, 3, P3_RXD, level, at);
+    mcs51_alternate(self, 3, P3_TXD, false, at);
+    mcs51_alternate(self, 3, P3_TXD, true, at);
 }
 
 void mcs51_uart_tx(mcs51_t* self, uint64_t at)
@@ -133,9 +140,9 @@ void mcs51_uart_tx(mcs51_t* self, uint64_t at)
     }
     else
     {
-        u->tx_due += 16u * unit(self);
+        u->tx_due += 16u * unit(self, T2CON_TCLK);
     }
-    mcs51_alternate(self, P3_TXD, level, at);
+    mcs51_alternate(self, 3, P3_TXD, level, at);
 }
 
 static void received(mcs51_t* self, uint8_t octet, bool ninth, uint64_t at)
@@ -166,9 +173,9 @@ static void shift_in(mcs51_t* self, uint64_t at)
         return;
     }
     ++u->rx_due;
-    mcs51_alternate(self, P3_TXD, false, at);
+    mcs51_alternate(self, 3, P3_TXD, false, at);
     u->rx_frame = u->rx_frame | (mcs51_port_pins(self, 3) & (uint32_t)P3_RXD) << u->rx_bit++;
-    mcs51_alternate(self, P3_TXD, true, at);
+    mcs51_alternate(self, 3, P3_TXD, true, at);
 }
 
 void mcs51_uart_rxd_fell(mcs51_t* self)
@@ -177,7 +184,7 @@ void mcs51_uart_rxd_fell(mcs51_t* self)
     if (u->rx_state == RX_IDLE && uart_mode(self) != 0 && (self->mem[SCON] & SCON_REN))
     {
         u->rx_state = RX_WATCH;
-        u->rx_due = rollover(self, unit(self));
+        u->rx_due = rollover(self, T2CON_RCLK, 1u);
     }
 }
 
@@ -196,7 +203,7 @@ static void rx_bit(mcs51_t* self, bool level, uint64_t at)
     if (u->rx_bit < 9)
     {
         ++u->rx_bit;
-        u->rx_due += 14u * unit(self);
+        u->rx_due += 14u * unit(self, T2CON_RCLK);
         return;
     }
     if (uart_mode(self) == 1)
@@ -206,7 +213,7 @@ static void rx_bit(mcs51_t* self, bool level, uint64_t at)
     else
     {
         u->rx_state = RX_WAIT;
-        u->rx_due += 16u * unit(self);
+        u->rx_due += 16u * unit(self, T2CON_RCLK);
     }
     received(self, (uint8_t)(u->rx_frame >> 1), level, at);
 }
@@ -229,7 +236,7 @@ void mcs51_uart_rx(mcs51_t* self, uint64_t at)
         u->rx_state = RX_SAMPLE;
         u->rx_bit = u->rx_samples = u->rx_votes = 0;
         u->rx_frame = 0;
-        u->rx_due += 7u * unit(self);
+        u->rx_due += 7u * unit(self, T2CON_RCLK);
         break;
     case RX_SAMPLE:
         u->rx_votes = (uint8_t)(u->rx_votes + level);
@@ -239,7 +246,7 @@ void mcs51_uart_rx(mcs51_t* self, uint64_t at)
         }
         else
         {
-            u->rx_due += unit(self);
+            u->rx_due += unit(self, T2CON_RCLK);
         }
         break;
     default:
@@ -256,7 +263,7 @@ void mcs51_uart_scon(mcs51_t* self, uint8_t old, uint64_t now)
     {
         u->tx_due = MCS51_NEVER; // [U] a change of mode cuts a frame off
         rx_stop(u);
-        mcs51_alternate(self, P3_RXD | P3_TXD, true, now);
+        mcs51_alternate(self, 3, P3_RXD | P3_TXD, true, now);
     }
     if (!(scon & SCON_REN))
     {
@@ -268,5 +275,27 @@ void mcs51_uart_scon(mcs51_t* self, uint8_t old, uint64_t now)
         u->rx_bit = 0;
         u->rx_frame = 0;
         u->rx_due = now - self->frozen + 1u;
+    }
+}
+
+/// [U] A frame under way goes on with as many ticks of the new clock as it had left of the old.
+static void change_clock(mcs51_t* self, uint64_t* due, bool t2)
+{
+    if (*due != MCS51_NEVER && (uart_mode(self) & 1u))
+    {
+        *due += tick(self, t2) - tick(self, !t2);
+    }
+}
+
+void mcs51_uart_t2con(mcs51_t* self, uint8_t old)
+{
+    const uint8_t now = self->mem[T2CON], changed = now ^ old;
+    if (changed & T2CON_TCLK)
+    {
+        change_clock(self, &self->uart.tx_due, now & T2CON_TCLK);
+    }
+    if (changed & T2CON_RCLK)
+    {
+        change_clock(self, &self->uart.rx_due, now & T2CON_RCLK);
     }
 }
