@@ -115,6 +115,7 @@ TEST(timer2, every_mode_equals_a_count_by_count_model)
                           static_cast<int>(rng() & (CAPTURE | COUNTER | EXEN2));
         const int t2mod = static_cast<int>(rng() & 3);
         model m{t2con, t2mod, static_cast<uint16_t>(rng()), static_cast<uint16_t>(rng() % 4 ? rng() : 0xFF00 | rng())};
+        m.reload = rng() % 8 ? m.reload : m.count;
         rig b(t2con, t2mod, m.count, m.reload);
         uint64_t at = 0;
         int level = 0xFF;
