@@ -14,7 +14,7 @@ struct log_t
 
 struct event_t
 {
-    event_t(log_t& log_, int id_) : log(&log_), id(id_) { e = {fire, this, 0, false, nullptr}; }
+    event_t(log_t& log_, int id_) : log(&log_), id(id_) { e = {fire, this, 0, false, nullptr, 0}; }
     static void fire(void* ctx, emu_time_t at)
     {
         auto* self = static_cast<event_t*>(ctx);

@@ -146,3 +146,47 @@ int emu_serial_end_init(emu_serial_end_t* self, emu_sched_t* sched, emu_wire_t* 
     }
     return 0;
 }
+
+static void fifo_state(emu_serial_end_t* self, emu_state_t* io)
+{
+    uint32_t count = self->fifo_count;
+    emu_state_u32(io, &count);
+    emu_state_check(io, count <= EMU_SERIAL_FIFO);
+    if (io->bad)
+    {
+        return;
+    }
+    self->fifo_head = emu_state_loading(io) ? 0 : self->fifo_head;
+    self->fifo_count = count;
+    for (uint32_t i = 0; i < count; i++)
+    {
+        emu_state_u8(io, &self->fifo[(self->fifo_head + i) % EMU_SERIAL_FIFO]);
+    }
+}
+
+void emu_serial_end_state(emu_serial_end_t* self, emu_state_t* io)
+{
+    emu_state_tag(io, "SEND", 1);
+    emu_state_f64(io, &self->baud);
+    emu_state_check(io, self->baud >= EMU_BAUD_MIN && self->baud <= EMU_BAUD_MAX);
+    emu_state_u16(io, &self->tx_frame);
+    emu_state_u8(io, &self->tx_bit);
+    emu_state_bool(io, &self->tx_busy);
+    emu_state_i64(io, &self->tx_start);
+    emu_event_state(self->sched, &self->tx_event, io);
+    emu_state_u16(io, &self->rx_bits);
+    emu_state_u8(io, &self->rx_bit);
+    emu_state_u8(io, &self->rx_sample);
+    emu_state_u8(io, &self->rx_votes);
+    emu_state_bool(io, &self->rx_busy);
+    emu_state_i64(io, &self->rx_start);
+    emu_event_state(self->sched, &self->rx_event, io);
+    emu_state_check(io, self->tx_bit <= FRAME_BITS && self->rx_bit <= FRAME_BITS && self->rx_sample < SAMPLES);
+    emu_state_check(io, emu_state_time(self->tx_start) && emu_state_time(self->rx_start));
+    fifo_state(self, io);
+    emu_state_u64(io, &self->octets_sent);
+    emu_state_u64(io, &self->octets_received);
+    emu_state_u64(io, &self->framing_errors);
+    emu_state_u64(io, &self->false_starts);
+    emu_state_u64(io, &self->overflow);
+}

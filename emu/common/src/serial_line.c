@@ -42,10 +42,14 @@ static void frame_end(void* ctx, emu_time_t at)
     update(self, at);
 }
 
+static emu_time_t slot_time(const emu_serial_line_t* self)
+{
+    return self->slot_origin + (emu_time_t)((double)self->slot * 1e12 / self->faults.baud + 0.5);
+}
+
 static void noise_arm(emu_serial_line_t* self)
 {
-    emu_sched_at(self->sched, &self->noise_event,
-                 self->slot_origin + (emu_time_t)((double)self->slot * 1e12 / self->faults.baud + 0.5));
+    emu_sched_at(self->sched, &self->noise_event, slot_time(self));
 }
 
 /// At the start of slot self->slot: invert it if it was drawn, and look for the next.
@@ -140,4 +144,34 @@ int emu_serial_line_init(emu_serial_line_t* self, emu_sched_t* sched, emu_wire_t
     }
     update(self, sched->now);
     return 0;
+}
+
+static bool on_grid(const emu_serial_line_t* self)
+{
+    const double slots_ps = (double)self->slot * 1e12 / self->faults.baud;
+    return !self->noise_event.pending || (emu_state_time(self->slot_origin) && slots_ps < (double)EMU_TIME_LOADED_MAX &&
+                                          self->noise_event.at == slot_time(self));
+}
+
+void emu_serial_line_state(emu_serial_line_t* self, emu_state_t* io)
+{
+    uint32_t next_cut = self->next_cut;
+    emu_state_tag(io, "LINE", 1);
+    emu_event_state(self->sched, &self->noise_event, io);
+    emu_event_state(self->sched, &self->cut_event, io);
+    emu_event_state(self->sched, &self->loss_event, io);
+    emu_state_u64(io, &self->rng);
+    emu_state_bool(io, &self->inverted);
+    emu_state_bool(io, &self->cut);
+    emu_state_bool(io, &self->swallowing);
+    emu_state_u32(io, &next_cut);
+    emu_state_i64(io, &self->slot_origin);
+    emu_state_u64(io, &self->slot);
+    emu_state_bool(io, &self->hit);
+    emu_state_u64(io, &self->slots_inverted);
+    emu_state_u64(io, &self->octets_swallowed);
+    emu_state_check(io, next_cut < self->faults.cut_count ||
+                            (next_cut == self->faults.cut_count && !self->cut_event.pending));
+    emu_state_check(io, on_grid(self));
+    self->next_cut = io->bad ? self->next_cut : next_cut;
 }

@@ -76,3 +76,18 @@ void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t 
         }
     }
 }
+
+void emu_wire_state(emu_wire_t* self, emu_state_t* io)
+{
+    uint8_t drivers = self->drivers;
+    emu_state_u8(io, &drivers);
+    emu_state_check(io, drivers == self->drivers);
+    for (unsigned i = 0; i < self->drivers; i++)
+    {
+        emu_state_u8(io, &self->drive[i]);
+        emu_state_check(io, self->drive[i] <= EMU_STRONG1);
+    }
+    emu_state_bool(io, &self->level);
+    emu_state_bool(io, &self->floating);
+    emu_state_u64(io, &self->contentions);
+}

@@ -124,8 +124,8 @@ class acq_rig_t
         EXPECT_EQ(emu_serial_line_init(&down, &sched, &from_host, acq_board_wire(board, "RXD"), &config.down), 0);
         const ins_hs_config_t hs{config.block_len, config.seq, 3, 0, config.octet_timeout_ms};
         EXPECT_EQ(ins_hs_host_init(&host, &hs), INS_OK);
-        clock = {tick, this, 0, false, nullptr};
-        ack = {acknowledge, this, 0, false, nullptr};
+        clock = {tick, this, 0, false, nullptr, 0};
+        ack = {acknowledge, this, 0, false, nullptr, 0};
         tick(this, 0);
     }
     ~acq_rig_t() { acq_board_destroy(board); }

@@ -47,6 +47,8 @@ EMU_API int emu_serial_end_init(emu_serial_end_t* self, emu_sched_t* sched, emu_
                                 emu_serial_rx_fn received, void* ctx);
 /// Queue one octet; it starts at once if the transmitter is free. \return false when the queue is full (counted in overflow).
 EMU_API bool emu_serial_end_send(emu_serial_end_t* self, uint8_t octet);
+/// What is on its way, the queue and the counters, and the baud. After emu_sched_state; its wires are their owner's.
+EMU_API void emu_serial_end_state(emu_serial_end_t* self, emu_state_t* io);
 
 typedef struct emu_serial_cut_t
 {
@@ -83,6 +85,8 @@ typedef struct emu_serial_line_t
 /// \return 0; -1 for a probability outside 0 .. 0.5, a bad baud or cut list, or no free driver or watcher.
 EMU_API int emu_serial_line_init(emu_serial_line_t* self, emu_sched_t* sched, emu_wire_t* from, emu_wire_t* to,
                                  const emu_serial_faults_t* faults);
+/// Where the line is in its faults and its random numbers. After emu_sched_state; its wires are their owner's.
+EMU_API void emu_serial_line_state(emu_serial_line_t* self, emu_state_t* io);
 
 #ifdef __cplusplus
 }

@@ -6,8 +6,7 @@
 /// SPDX-License-Identifier: MIT
 #ifndef EMU_WIRE_H_INCLUDED
 #define EMU_WIRE_H_INCLUDED
-#include "emu/time.h"
-#include <stdbool.h>
+#include "emu/state.h"
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -50,6 +49,8 @@ EMU_API int emu_wire_add_driver(emu_wire_t* self);
 EMU_API int emu_wire_watch(emu_wire_t* self, emu_wire_fn fn, void* ctx);
 /// What a driver puts on the wire from `at` on; watchers are told when the level changes.
 EMU_API void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t at);
+/// Level and drives; watchers are not told of what was loaded.
+EMU_API void emu_wire_state(emu_wire_t* self, emu_state_t* io);
 
 #ifdef __cplusplus
 }
