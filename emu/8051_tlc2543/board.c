@@ -18,7 +18,7 @@ typedef struct net_t
     acq_board_t* board;
     unsigned port, mask;
     emu_wire_t wire;
-    int driver;
+    int driver, probe; ///< the CPU's, and acq_board_drive_pin()'s
 } net_t;
 
 struct acq_board_t
@@ -99,6 +99,7 @@ acq_board_t* acq_board_create(const acq_board_config_t* config, emu_sched_t* sch
         emu_wire_init(&net->wire, pins[i].name, true);
         net->driver = emu_wire_add_driver(&net->wire);
         emu_wire_drive(&net->wire, net->driver, EMU_WEAK1, sched->now);
+        net->probe = emu_wire_add_driver(&net->wire);
         emu_wire_watch(&net->wire, net_changed, net);
     }
     self->adc =
@@ -158,4 +159,25 @@ emu_wire_t* acq_board_wire(acq_board_t* self, const char* name)
         }
     }
     return NULL;
+}
+
+bool acq_board_pin(const acq_board_t* self, unsigned port, unsigned bit)
+{
+    return (mcs51_port_out(self->cpu, port) & self->outside[port] & 1u << bit) != 0;
+}
+
+void acq_board_drive_pin(acq_board_t* self, unsigned port, unsigned bit, emu_drive_t drive)
+{
+    const unsigned mask = 1u << bit;
+    for (net_t* net = self->nets; net < self->nets + NETS; net++)
+    {
+        if (net->port == port && net->mask == mask)
+        {
+            emu_wire_drive(&net->wire, net->probe, drive, self->sched->now);
+            return;
+        }
+    }
+    const bool low = drive == EMU_WEAK0 || drive == EMU_STRONG0;
+    self->outside[port] = (uint8_t)(low ? self->outside[port] & ~mask : self->outside[port] | mask);
+    mcs51_set_pins(self->cpu, port, self->outside[port], mcs51_cycle(self->cpu));
 }

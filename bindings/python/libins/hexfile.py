@@ -7,10 +7,10 @@ from intelhex import HexReaderError, IntelHex
 from libins.errors import UsageError
 
 
-def load(path: Path, flash_size: int) -> list[tuple[int, bytes]]:
+def load(path: Path, code_size: int) -> list[tuple[int, bytes]]:
     """Segments (address, octets) of an Intel HEX file.
 
-    Raises UsageError for a missing, truncated or corrupt file, and for an image larger than the flash.
+    Raises UsageError for a missing, truncated or corrupt file, and for an image larger than the code memory.
     """
     image = IntelHex()
     try:
@@ -24,9 +24,9 @@ def load(path: Path, flash_size: int) -> list[tuple[int, bytes]]:
         raise UsageError(f"{path}: truncated: the end-of-file record (:00000001FF) is missing; build it again")
     if not len(image):
         raise UsageError(f"{path}: holds no data; build it again")
-    if image.maxaddr() >= flash_size:
+    if image.maxaddr() >= code_size:
         raise UsageError(
-            f"{path}: an octet at address {image.maxaddr():#06x} lies beyond the flash ({flash_size} octets); "
-            "the AT89S51 has 4 KB, make the firmware smaller"
+            f"{path}: an octet at address {image.maxaddr():#06x} lies beyond the code memory ({code_size} octets); make"
+            " the firmware smaller, or take part = 'at89s52' (8192 octets) or more code_octets (external memory)"
         )
     return [(start, bytes(image.tobinarray(start=start, end=end - 1))) for start, end in image.segments()]

@@ -101,11 +101,14 @@ def gyro_of(scenario: Scenario, seed: int) -> Any:
     return gyro
 
 
-def build(scenario: Scenario, seed: int, outside: bool, trace: bool) -> Any:
+def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: bool = False) -> Any:
     """The run itself, at time 0. Raises UsageError."""
     tables = scenario.tables
     gyro = gyro_of(scenario, seed)
     config = _run.RunConfig()
+    config.part = tables.part
+    config.code_octets = tables.code_octets
+    config.xdata_octets = tables.xdata_octets
     config.crystal_hz = tables.clock_hz
     config.seed = seed
     config.baud = tables.link.baud
@@ -113,6 +116,7 @@ def build(scenario: Scenario, seed: int, outside: bool, trace: bool) -> Any:
     config.octet_loss = tables.link.octet_loss
     config.cuts_s = [(a, b) for a, b in tables.link.cuts_s]
     config.trace = trace
+    config.listen = listen
     for address, octets in scenario.image:
         config.add_segment(address, octets)
     if tables.nav is not None and not outside:

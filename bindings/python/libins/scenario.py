@@ -4,6 +4,7 @@ TOML without loops or expressions; logic belongs in pytest. Names carry their un
 docs/scenarios.md lists every key.
 """
 
+import copy
 import csv
 import itertools
 import math
@@ -22,7 +23,10 @@ from libins.schema import Document, field
 
 PACKAGE = Path(__file__).absolute().parent
 """In the build tree the modules are links: what was built lies beside the links."""
-FLASH_SIZE = 4096  # AT89S51
+FLASH_OCTETS = {"at89s51": 4096, "at89s52": 8192}
+BARE: dict[str, Any] = {"schema": 1, "board": "8051_tlc2543", "stop_s": 1e6, "motion": {"kind": "still"}}
+"""The board alone, without a scenario file: gyros at rest, and nobody at the other end of the line."""
+IMAGES = (".ihx", ".hex", ".ihex")
 BOARDS = ("8051_tlc2543",)
 MATRIX_LIMIT = 10_000
 """Combinations of one scenario; more are a campaign's."""
@@ -106,6 +110,9 @@ class Tables:
     schema: int = field(choices=(1,))
     board: str = field(choices=BOARDS)
     stop_s: float = field(above=0.0, maximum=1e6)
+    part: str = field("at89s51", choices=tuple(FLASH_OCTETS))
+    code_octets: int = field(0, minimum=0, maximum=65536)
+    xdata_octets: int = field(0, minimum=0, maximum=65536)
     clock_hz: int = field(11_059_200, minimum=1_000_000, maximum=33_000_000)
     seed: int = field(1, minimum=0, maximum=2**63 - 1)
     stop_samples: int | None = field(None, minimum=1)
@@ -126,6 +133,8 @@ class Scenario:
     csv: np.ndarray[Any, Any] | None
     combination: Mapping[str, Any]
     """What the matrix sets, by dotted name."""
+    table: Mapping[str, Any]
+    """As written, with what replaced a key."""
 
     @property
     def name(self) -> str:
@@ -149,19 +158,31 @@ def load(
 ) -> Scenario:
     """Read and check a scenario and the files it names. Raises UsageError.
 
-    settings and combination replace keys by dotted name: from the command line, and from the scenario's own matrix.
+    An Intel HEX image in the place of a scenario runs on a bare board. settings and combination replace keys by dotted
+    name: from the command line, and from the scenario's own matrix.
     """
-    document = Document(path)
+    if path.suffix in IMAGES:
+        document, firmware = Document(path, copy.deepcopy(BARE)), firmware or path
+    else:
+        document = Document(path)
     document.override(settings or {}, "--set")
+    return read(document, firmware, combination)
+
+
+def read(document: Document, firmware: Path | None, combination: Mapping[str, Any] | None = None) -> Scenario:
+    """A scenario from its document. Raises UsageError."""
     document.override(combination or {}, "matrix")
     document.table.pop("matrix", None)
+    if firmware is not None:
+        document.table.setdefault("firmware", firmware.name)
     tables = document.parse(Tables, document.table)
     _check(document, tables)
     image_path = firmware or _resolve(document, ("firmware",), tables.firmware, PACKAGE / "firmware")
     table = None
     if tables.motion.kind == "csv":
         table = read_csv(_resolve(document, ("motion", "csv"), tables.motion.csv, None))
-    return Scenario(path, tables, hexfile.load(image_path, FLASH_SIZE), image_path, table, combination or {})
+    image = hexfile.load(image_path, tables.code_octets or FLASH_OCTETS[tables.part])
+    return Scenario(document.path, tables, image, image_path, table, combination or {}, document.table)
 
 
 def load_all(path: Path, firmware: Sequence[Path] = (), settings: Mapping[str, Any] | None = None) -> list[Scenario]:
@@ -169,7 +190,7 @@ def load_all(path: Path, firmware: Sequence[Path] = (), settings: Mapping[str, A
 
     A key that settings or firmware give is no longer varied.
     """
-    document = Document(path)
+    document = Document(path, BARE if path.suffix in IMAGES else None)
     given = {*(settings or {}), *(("firmware",) if firmware else ())}
     axes = {key: v for key, v in _axes(document, (), document.table.get("matrix", {})) if key not in given}
     count = math.prod(map(len, axes.values())) * max(1, len(firmware))
@@ -216,6 +237,8 @@ def _resolve(document: Document, key: tuple[str, ...], name: str, built_in: Path
 
 def _check(document: Document, tables: Tables) -> None:
     """What one key alone cannot show."""
+    if 0 < tables.code_octets < FLASH_OCTETS[tables.part]:
+        raise document.refuse(("code_octets",), f"found {tables.code_octets}, less than the flash of the {tables.part}")
     motion = tables.motion
     for key, length in (("rate_rad_s", 3),):
         if len(getattr(motion, key)) != length:

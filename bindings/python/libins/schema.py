@@ -27,13 +27,16 @@ def field(default: Any = dataclasses.MISSING, **limits: Any) -> Any:
 class Document:
     """A parsed TOML file that knows on which line a key stands."""
 
-    def __init__(self, path: Path) -> None:
-        """Read and parse. Raises UsageError for a missing file or a syntax error (tomllib says the line)."""
+    def __init__(self, path: Path, table: dict[str, Any] | None = None) -> None:
+        """Read and parse, unless the table is given, and path only a name for it.
+
+        Raises UsageError for a missing file or a syntax error (tomllib says the line).
+        """
         self.path = path
         self._overrides: dict[tuple[str, ...], str] = {}
         try:
-            self.text = path.read_text(encoding="utf-8")
-            self.table = tomllib.loads(self.text)
+            self.text = path.read_text(encoding="utf-8") if table is None else ""
+            self.table = tomllib.loads(self.text) if table is None else table
         except OSError as error:
             raise UsageError(f"{path}: cannot be read: {error.strerror}; give the path of a scenario file") from error
         except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:

@@ -57,6 +57,9 @@ Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const in
     emu_sched_init(&sched_);
     acq_board_config_t board;
     acq_board_default_config(&board);
+    board.part = config_.part;
+    board.code_octets = config_.code_octets;
+    board.xdata_octets = config_.xdata_octets;
     board.crystal_hz = config_.crystal_hz;
     board.adc.analog = {ins_gyro_volts, &gyro_};
     board.adc.sampled = on_sample;
@@ -66,14 +69,15 @@ Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const in
     board_.reset(acq_board_create(&board, &sched_));
     if (!board_)
     {
-        throw std::invalid_argument("the board could not be made: out of memory, or a crystal outside its range");
+        throw std::invalid_argument(
+            "the board could not be made: out of memory, or a crystal or memory outside its range");
     }
     for (const Segment& segment : config_.image)
     {
         const auto* octets = reinterpret_cast<const uint8_t*>(segment.octets.data());
         if (mcs51_load(acq_board_cpu(board_.get()), segment.address, octets, segment.octets.size()) != 0)
         {
-            throw std::invalid_argument("the firmware image does not fit the flash");
+            throw std::invalid_argument("the firmware image does not fit the code memory");
         }
     }
     wire_up();
@@ -111,18 +115,37 @@ void Run::wire_up()
     }
 }
 
-void Run::until(emu_time_t t)
+bool Run::until(emu_time_t t)
 {
     constexpr emu_time_t tick = 1'000'000'000; // the host looks at its time-outs each millisecond
     while (sched_.now < t)
     {
         const emu_time_t next = config_.nav ? std::min(t, (sched_.now / tick + 1) * tick) : t;
-        acq_board_run(board_.get(), next);
+        const mcs51_stop_t stop = acq_board_run(board_.get(), next);
         if (config_.nav)
         {
             ins_nav_link_tick(&link_, static_cast<uint64_t>(sched_.now / tick));
         }
+        if (stop == MCS51_STOPPED)
+        {
+            return false;
+        }
     }
+    return true;
+}
+
+bool Run::until_octet(emu_time_t t)
+{
+    stop_at_octet_ = true;
+    const bool reached = until(t);
+    stop_at_octet_ = false;
+    return reached;
+}
+
+void Run::set_motion(std::shared_ptr<ins_motion_t> motion)
+{
+    motion_ = std::move(motion);
+    gyro_.motion = motion_.get();
 }
 
 size_t Run::send(const std::string& octets)
@@ -179,12 +202,15 @@ void Run::on_report(void* ctx, emu_report_kind_t kind, const char* text, uint32_
 void Run::on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at)
 {
     Run& self = *static_cast<Run*>(ctx);
-    if (!self.config_.nav)
+    if (!self.config_.nav || self.config_.listen)
     {
-        self.octets_.push_back(static_cast<char>(octet));
-        return;
+        self.octets_.push_back({at, octet, framing_ok});
     }
-    if (!framing_ok)
+    if (self.stop_at_octet_)
+    {
+        mcs51_stop(self.cpu());
+    }
+    if (!self.config_.nav || !framing_ok)
     {
         return; // a UART hands no octet on without its stop bit; the end counts it
     }

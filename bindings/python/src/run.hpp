@@ -62,8 +62,19 @@ struct Segment
     std::string octets;
 };
 
+/// What the host's end of the line received.
+struct Octet
+{
+    emu_time_t at; ///< in the stop bit
+    uint8_t value;
+    bool framing_ok;
+};
+
 struct RunConfig
 {
+    mcs51_part_t part = MCS51_AT89S51;
+    uint32_t code_octets = 0; ///< as in mcs51_config_t
+    uint32_t xdata_octets = 0;
     uint64_t crystal_hz = 11059200;
     uint64_t seed = 1;
     std::vector<Segment> image;
@@ -74,6 +85,7 @@ struct RunConfig
     std::optional<ins_nav_config_t> nav; ///< nothing: the outside plays the host
     bool start_at_truth = true;          ///< the navigator gets the truth at its first sample
     bool trace = false;
+    bool listen = false; ///< keep the octets that the host receives, also where the navigator takes them
 };
 
 class Run
@@ -88,15 +100,22 @@ class Run
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    void until(emu_time_t t);
+    /// Run to t. \return whether t was reached; false: something stopped the run before, and running again goes on.
+    bool until(emu_time_t t);
+    /// As until(), but no further than the first octet that the host receives.
+    bool until_octet(emu_time_t t);
+    /// From this instant on.
+    void set_motion(std::shared_ptr<ins_motion_t> motion);
     /// Octets from the outside; \return how many the transmitter took.
     size_t send(const std::string& octets);
 
     emu_time_t now() const { return sched_.now; }
-    const mcs51_t* cpu() const { return acq_board_cpu(board_.get()); }
+    acq_board_t* board() const { return board_.get(); }
+    const RunConfig& config() const { return config_; }
+    mcs51_t* cpu() const { return acq_board_cpu(board_.get()); }
     std::vector<Scored> take_states() { return std::exchange(states_, {}); }
     std::vector<Edge> take_edges() { return std::exchange(edges_, {}); }
-    std::string take_octets() { return std::exchange(octets_, {}); }
+    std::vector<Octet> take_octets() { return std::exchange(octets_, {}); }
 
     std::vector<Scan> scans;
     std::vector<Report> reports;
@@ -147,7 +166,8 @@ class Run
     std::array<Tap, traced.size()> taps_{};
     std::vector<Scored> states_;
     std::vector<Edge> edges_;
-    std::string octets_;
+    std::vector<Octet> octets_;
+    bool stop_at_octet_ = false;
 };
 
 } // namespace libins

@@ -1,5 +1,6 @@
 /// \file   run_module.cpp
 /// \brief  The Python module libins._run: motions, gyros and runs, over the C libraries. SPDX-License-Identifier: MIT
+#include "board_module.hpp"
 #include "ins/coning.h"
 #include "run.hpp"
 #include <memory>
@@ -14,6 +15,8 @@
 namespace nb = nanobind;
 using namespace nb::literals;
 using libins::Edge;
+using libins::Motion;
+using libins::Octet;
 using libins::Report;
 using libins::Run;
 using libins::RunConfig;
@@ -22,11 +25,6 @@ using libins::Scored;
 
 namespace
 {
-
-struct Motion
-{
-    std::shared_ptr<ins_motion_t> handle;
-};
 
 using Sine = std::array<double, 4>; // offset, amplitude, frequency_hz, phase
 
@@ -306,6 +304,11 @@ NB_MODULE(_run, m)
 
     nb::class_<RunConfig>(m, "RunConfig")
         .def(nb::init<>())
+        .def_prop_rw(
+            "part", [](const RunConfig& self) { return libins::part_name(self.part); },
+            [](RunConfig& self, const std::string& name) { self.part = libins::part_of(name); })
+        .def_rw("code_octets", &RunConfig::code_octets)
+        .def_rw("xdata_octets", &RunConfig::xdata_octets)
         .def_rw("crystal_hz", &RunConfig::crystal_hz)
         .def_rw("seed", &RunConfig::seed)
         .def_rw("baud", &RunConfig::baud)
@@ -315,6 +318,7 @@ NB_MODULE(_run, m)
         .def_rw("nav", &RunConfig::nav)
         .def_rw("start_at_truth", &RunConfig::start_at_truth)
         .def_rw("trace", &RunConfig::trace)
+        .def_rw("listen", &RunConfig::listen)
         .def(
             "add_segment",
             [](RunConfig& self, uint16_t address, const nb::bytes& octets) {
@@ -322,12 +326,13 @@ NB_MODULE(_run, m)
             },
             "address"_a, "octets"_a);
 
-    nb::class_<Run>(m, "Run", "See run.hpp.")
-        .def(
-            "__init__",
-            [](Run* self, const RunConfig& config, const Motion& motion, const ins_gyro_config_t& gyro)
-            { new (self) Run(config, motion.handle, gyro); },
-            "config"_a, "motion"_a, "gyro"_a)
+    nb::class_<Run> run(m, "Run", "See run.hpp.");
+    libins::bind_board(run);
+    run.def(
+           "__init__",
+           [](Run* self, const RunConfig& config, const Motion& motion, const ins_gyro_config_t& gyro)
+           { new (self) Run(config, motion.handle, gyro); },
+           "config"_a, "motion"_a, "gyro"_a)
         .def("until", &Run::until, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
         .def_prop_ro("now_ps", &Run::now)
         .def("take_states", take_states)
@@ -335,7 +340,11 @@ NB_MODULE(_run, m)
         .def("take_octets",
              [](Run& self)
              {
-                 const std::string octets = self.take_octets();
+                 std::string octets;
+                 for (const Octet& octet : self.take_octets())
+                 {
+                     octets.push_back(static_cast<char>(octet.value));
+                 }
                  return nb::bytes(octets.data(), octets.size());
              })
         .def(
@@ -344,8 +353,6 @@ NB_MODULE(_run, m)
             "octets"_a)
         .def("scans", scans)
         .def("counters", counters)
-        .def(
-            "iram", [](const Run& self, uint8_t address) { return mcs51_iram(self.cpu(), address); }, "address"_a)
         .def("reports",
              [](const Run& self)
              {

@@ -38,6 +38,10 @@ EMU_API mcs51_stop_t acq_board_run(acq_board_t* self, emu_time_t t);
 EMU_API mcs51_t* acq_board_cpu(acq_board_t* self);
 /// By schematic name: "EOC", "I/O CLOCK", "DATA IN", "DATA OUT", "/CS", "TXD", "RXD". NULL if there is none.
 EMU_API emu_wire_t* acq_board_wire(acq_board_t* self, const char* name);
+/// Level of a pin of the CPU, port 0..3 and bit 0..7, on a net or not.
+EMU_API bool acq_board_pin(const acq_board_t* self, unsigned port, unsigned bit);
+/// What a probe on that pin drives from now on, between runs; EMU_Z takes it away.
+EMU_API void acq_board_drive_pin(acq_board_t* self, unsigned port, unsigned bit, emu_drive_t drive);
 
 #ifdef __cplusplus
 }
