@@ -1,5 +1,5 @@
 /// \file   mcs51.c
-/// \brief  The part as a whole: creation, reset, the run loop, idle, power-down, watchdog, debug access. Atmel 2487D.
+/// \brief  The part as a whole: creation, the run loop, idle, power-down, debug access. Atmel 2487D.
 /// SPDX-License-Identifier: MIT
 #include "mcs51_internal.h"
 #include <stdlib.h>
@@ -22,6 +22,7 @@ mcs51_t* mcs51_create(const mcs51_config_t* config)
         mcs51_destroy(self);
         return NULL;
     }
+    self->rst_due = MCS51_NEVER;
     mcs51_reset(self, true);
     return self;
 }
@@ -33,56 +34,6 @@ void mcs51_destroy(mcs51_t* self)
         free(self->xdata);
         free(self);
     }
-}
-
-void mcs51_reset(mcs51_t* self, bool power_on)
-{
-    static const uint8_t ports[4] = {P0, P1, P2, P3};
-    const uint64_t now = mcs51_cycle(self);
-    uint8_t* const mem = self->mem;
-    const uint8_t pof = power_on ? PCON_POF : mem[PCON] & PCON_POF;
-    const uint8_t received = mem[SBUF]; // SBUF is undefined after reset: kept
-
-    memset(mem + 0x80, 0, 0x80);
-    if (power_on)
-    {
-        mcs51_memory_clear(self);
-    }
-    mem[SP] = 0x07;
-    mem[PCON] = pof;
-    mem[SBUF] = power_on ? 0 : received;
-    for (unsigned i = 0; i < 4; ++i)
-    {
-        mem[ports[i]] = 0xFF;
-    }
-    self->pc = 0;
-    self->cy = 0;
-    self->fx = 0;
-    self->dptr = DP0L;
-    self->in_service = 0;
-    self->passed_pc = NO_PC;
-    self->self_jump = false;
-    self->halted = false;
-    self->timer_at = now;
-    self->overflow_at = MCS51_NEVER;
-    self->gate_at = 0;
-    memset(self->flag_at, 0, sizeof self->flag_at);
-    self->wdt_due = MCS51_NEVER;
-    self->wdt_armed = false;
-    self->once = 0;
-    memset(self->absent_sfr, 0, sizeof self->absent_sfr);
-    memset(self->alternate, 0xFF, sizeof self->alternate);
-    self->p1_watched = 0;
-    self->pins_due = MCS51_NEVER;
-    self->p3_sampled = mcs51_port_pins(self, 3);
-    mcs51_uart_reset(self);
-    for (unsigned i = 0; i < 4; ++i)
-    {
-        mcs51_port_drive(self, i, now);
-    }
-    mcs51_level_requests(self, now);
-    mcs51_plan(self);
-    mcs51_look_at(self, now);
 }
 
 void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const char* text, uint32_t detail)
@@ -142,17 +93,10 @@ static void set_horizon(mcs51_t* self, uint64_t now)
 {
     uint64_t next = earlier(self->until, now + LONGEST_SLICE);
     next = earlier(next, mcs51_interrupt_next(self, now));
-    next = earlier(next, earlier(self->periph_at, self->wdt_due));
+    next = earlier(next, earlier(self->periph_at, earlier(self->wdt_due, self->rst_due)));
     next = earlier(next, mcs51_overflow_next(self));
     self->horizon = next;
     self->left = next > now ? (int32_t)(next - now) : 0;
-}
-
-static void watchdog_reset(mcs51_t* self)
-{
-    mcs51_report(self, EMU_GUEST_ERROR, 0, "watchdog overflow: the part resets itself, from this address", self->pc);
-    self->left -= (int32_t)MCS51_WDT_RESET;
-    mcs51_reset(self, false);
 }
 
 /// The oscillator stands still: nothing counts for that long.
@@ -160,18 +104,22 @@ static void freeze(mcs51_t* self, uint64_t now, uint64_t until)
 {
     self->timer_at += until - now;
     self->frozen += until - now;
-    self->wdt_due = self->wdt_due == MCS51_NEVER ? MCS51_NEVER : self->wdt_due + (until - now);
+    self->wdt_due += self->wdt_due == MCS51_NEVER ? 0 : until - now;
+    self->pins_due += self->pins_due == MCS51_NEVER ? 0 : until - now;
     self->horizon = until;
     self->left = 0;
     mcs51_plan(self);
 }
 
-mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
+static mcs51_stop_t run(mcs51_t* self)
 {
-    self->until = until_cycle;
     for (;;)
     {
         const uint64_t now = mcs51_cycle(self);
+        if (mcs51_reset_due(self, earlier(now, self->until)))
+        {
+            continue;
+        }
         if ((self->mem[PCON] & PCON_PD) && !self->stop)
         {
             if (now < self->until)
@@ -195,9 +143,15 @@ mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
         {
             return self->halted ? MCS51_HALTED : MCS51_RAN;
         }
+        if (self->in_reset)
+        {
+            set_horizon(self, now);
+            self->left = 0;
+            continue;
+        }
         if (now >= self->wdt_due)
         {
-            watchdog_reset(self);
+            mcs51_watchdog_reset(self);
             continue;
         }
         if (mcs51_interrupt(self, now))
@@ -236,6 +190,15 @@ mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
             self->instructions += (uint64_t)turns;
         }
     }
+}
+
+mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
+{
+    self->until = until_cycle;
+    self->running = true;
+    const mcs51_stop_t stop = run(self);
+    self->running = false;
+    return stop;
 }
 
 uint16_t mcs51_pc(const mcs51_t* self)

@@ -19,7 +19,7 @@
     0xA5u ///< code fetched where there is none: the reserved opcode, so that a runaway shows at once
 #define MCS51_ABSENT_XRAM 0xFFu  ///< MOVX reads where there is no external RAM
 #define MCS51_WDT_CYCLES  16383u ///< overflow of the 14-bit watchdog, from the cycle in which it was last cleared
-#define MCS51_WDT_RESET   9u     ///< 98 oscillator periods of reset pulse, in whole machine cycles
+#define MCS51_WDT_RESET   9u     ///< 98 oscillator periods of RST, in whole machine cycles
 
 /// Interrupt sources in polling order; bit n of IE and IP; vector 8 n + 3.
 enum
@@ -63,6 +63,14 @@ enum
     MARK_TAKEN = 8
 };
 
+typedef enum mcs51_reset_t
+{
+    RESET_NONE,
+    RESET_PIN,
+    RESET_POWER,
+    RESET_BROWN_OUT
+} mcs51_reset_t;
+
 typedef enum uart_rx_state_t
 {
     RX_IDLE,   ///< looking for a fall of RXD
@@ -103,6 +111,11 @@ struct mcs51_t
     uint8_t dptr;       ///< DP0L or DP1L, as AUXR1 selects
     uint8_t in_service; ///< bit 0 low, bit 1 high priority
     bool self_jump, halted;
+    bool running;  ///< inside mcs51_run
+    bool in_reset; ///< RST is held high
+    mcs51_reset_t reset_request;
+    uint64_t reset_seed;
+    uint64_t rst_due;            ///< cycle at which RST has been high long enough
     uint64_t flag_at[IRQ_COUNT]; ///< cycle in which the request flag went up: polled in the next one
     uint64_t gate_at;            ///< end of the last RETI or write to IE or IP: no vector at this boundary
     uint64_t timer_at;           ///< TL0 TH0 TL1 TH1 are true at this cycle
@@ -148,8 +161,9 @@ uint8_t mcs51_read_latch(mcs51_t* self, unsigned address); ///< for read-modify-
 void mcs51_write(mcs51_t* self, unsigned address, uint8_t value);
 uint8_t mcs51_psw(const mcs51_t* self);
 
-int mcs51_memory_create(mcs51_t* self); ///< of the size that the configuration says; 0, or -1
-void mcs51_memory_clear(mcs51_t* self); ///< RAM, external too
+int mcs51_memory_create(mcs51_t* self);                    ///< of the size that the configuration says; 0, or -1
+void mcs51_memory_clear(mcs51_t* self);                    ///< RAM, external too
+void mcs51_memory_randomise(mcs51_t* self, uint64_t seed); ///< internal RAM; 0: as it is
 uint8_t mcs51_absent_ram(mcs51_t* self, unsigned address);
 uint8_t mcs51_absent_code(mcs51_t* self, unsigned address);
 uint8_t mcs51_xread(mcs51_t* self, unsigned address);
@@ -158,6 +172,10 @@ void mcs51_push_beyond(mcs51_t* self, unsigned address, uint8_t value); ///< the
 void mcs51_code_changed(mcs51_t* self, unsigned address); ///< from code memory: what an engine made of it is void
 void mcs51_reserved_opcode(mcs51_t* self);
 void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const char* text, uint32_t detail);
+
+/// A reset that was asked for, or RST. \return whether one was made.
+bool mcs51_reset_due(mcs51_t* self, uint64_t now);
+void mcs51_watchdog_reset(mcs51_t* self);
 
 /// Come back to the run loop at the first instruction boundary at or after `cycle`.
 void mcs51_look_at(mcs51_t* self, uint64_t cycle);

@@ -1,6 +1,7 @@
 /// \file   memory.c
 /// \brief  The parts, and what memory each has: flash and external code, internal RAM, external RAM. Atmel 2487D, 1919D.
 /// SPDX-License-Identifier: MIT
+#include "emu/random.h"
 #include "mcs51_internal.h"
 #include <stdlib.h>
 #include <string.h>
@@ -49,6 +50,14 @@ void mcs51_memory_clear(mcs51_t* self)
     if (self->xdata)
     {
         memset(self->xdata, 0, self->config.xdata_octets);
+    }
+}
+
+void mcs51_memory_randomise(mcs51_t* self, uint64_t seed)
+{
+    for (unsigned i = 0; seed && i < self->ram_octets; ++i)
+    {
+        mcs51_set_iram(self, (uint8_t)i, (uint8_t)(emu_random(&seed) >> 56));
     }
 }
 

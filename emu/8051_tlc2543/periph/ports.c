@@ -135,13 +135,24 @@ void mcs51_sync(mcs51_t* self, uint64_t t)
     }
 }
 
-/// [U] An enabled external interrupt ends power-down when its pin goes low; the oscillator is taken to start at once.
-static void wake(mcs51_t* self)
+/// An enabled external interrupt ends power-down: its pin goes low, which starts the oscillator, and then high, which starts the clocks
+/// and requests it, whatever its type. (Atmel, watchdog timer in power-down; [U] the oscillator starts at once.)
+static void wake(mcs51_t* self, uint8_t before, uint64_t at)
 {
-    const unsigned ie = self->mem[IE], low = ~(unsigned)mcs51_port_pins(self, 3);
-    if ((self->mem[PCON] & PCON_PD) && (ie & IE_EA) && ((low >> 2 & 1u & ie) || (low >> 3 & ie >> 2 & 1u)))
+    const unsigned ie = self->mem[IE], pins = mcs51_port_pins(self, 3);
+    for (unsigned n = 0; n < 2; ++n)
     {
+        const unsigned pin = 4u << n;
+        const bool woken = self->config.wake_at_low ? !(pins & pin) : (pins & ~(unsigned)before & pin) != 0;
+        if (!(self->mem[PCON] & PCON_PD) || !(ie & IE_EA) || !(ie >> 2 * n & 1u) || !woken)
+        {
+            continue;
+        }
         self->mem[PCON] &= (uint8_t)~PCON_PD;
+        if (!self->config.wake_at_low)
+        {
+            mcs51_raise(self, n ? IRQ_INT1 : IRQ_INT0, TCON, (uint8_t)(2u << 2 * n), at - 1u);
+        }
     }
 }
 
@@ -152,10 +163,11 @@ void mcs51_set_pins(mcs51_t* self, unsigned port, uint8_t outside, uint64_t cycl
     {
         mcs51_sync(self, cycle);
     }
+    const uint8_t before = mcs51_port_pins(self, 3);
     self->outside[port & 3u] = outside;
     if (sampled)
     {
-        wake(self);
+        wake(self, before, cycle);
         inputs_changed(self, port, cycle);
     }
 }

@@ -1,20 +1,16 @@
 /// A line that copies one wire to another with declared faults. Bit slots lie on a fixed grid of 1/baud from the instant of init.
 /// SPDX-License-Identifier: MIT
+#include "emu/random.h"
 #include "emu/serial.h"
 
 #define FRAME_SLOTS   9.5   ///< a swallowed frame ends inside its stop bit, so that the next start edge is seen
 #define LOOK_AHEAD    65536 ///< slots drawn at a time; keeps a tiny probability from drawing for ever
 #define PROBABLE_MOST 0.5
 
-/// splitmix64 (Steele, Lea and Flood 2014), as a fraction in [0, 1).
+/// A fraction in [0, 1).
 static double draw(uint64_t* state)
 {
-    *state += UINT64_C(0x9E3779B97F4A7C15);
-    uint64_t z = *state;
-    z = (z ^ z >> 30) * UINT64_C(0xBF58476D1CE4E5B9);
-    z = (z ^ z >> 27) * UINT64_C(0x94D049BB133111EB);
-    z ^= z >> 31;
-    return (double)(z >> 11) * 0x1p-53;
+    return (double)(emu_random(state) >> 11) * 0x1p-53;
 }
 
 static void update(emu_serial_line_t* self, emu_time_t at)

@@ -248,7 +248,9 @@ TEST(idle, a_jump_to_itself_waits_at_no_cost_and_halts_without_interrupts)
 
 TEST(power_down, stops_the_clocks_until_an_external_interrupt)
 {
-    bare_cpu b;
+    mcs51_config_t config{};
+    config.wake_at_low = true;
+    bare_cpu b(config);
     b.load(INT0, {0x05, 0x30, 0x32});
     b.load(0x100, {0x43, sfr::PCON, 0x02, 0x80, 0xFE});
     mcs51_set_pc(b.cpu, 0x100);
@@ -265,6 +267,47 @@ TEST(power_down, stops_the_clocks_until_an_external_interrupt)
     EXPECT_EQ(b.get(sfr::PCON) & 2, 0);
     EXPECT_GE(b.get(sfr::TL0), 20);
     EXPECT_LE(b.get(sfr::TL0), 24);
+}
+
+TEST(power_down, ends_when_the_pin_is_high_again_and_serves_it_once)
+{
+    for (const int tcon : {0x00, 0x01, 0x04}) // level, INT0 by edge, INT1 by edge
+    {
+        const bool second = tcon == 0x04;
+        bare_cpu b;
+        b.load(second ? INT1 : INT0, {0x05, 0x30, 0x32});
+        b.load(0x100, {0x43, sfr::PCON, 0x02, 0x05, 0x31, 0x80, 0xFE});
+        mcs51_set_pc(b.cpu, 0x100);
+        b.set(sfr::TMOD, 0x01);
+        b.set(sfr::IE, second ? 0x84 : 0x81);
+        b.set(sfr::TCON, 0x10 | tcon);
+        b.run(1000);
+        mcs51_set_pins(b.cpu, 3, second ? 0xF7 : INT0_PIN, 1000);
+        EXPECT_EQ(b.run(5000), MCS51_POWER_DOWN);
+        EXPECT_EQ(b.get(sfr::TL0), 2);
+        mcs51_set_pins(b.cpu, 3, 0xFF, 5000);
+        EXPECT_EQ(b.run(5002), MCS51_RAN); // LCALL
+        EXPECT_EQ(b.pc(), second ? INT1 : INT0);
+        b.run(5100);
+        EXPECT_EQ(b.ram(0x30), 1) << tcon;
+        EXPECT_EQ(b.ram(0x31), 1); // the instruction after the one that set PD
+        EXPECT_EQ(b.get(sfr::TCON) & 0x0A, 0);
+        EXPECT_NEAR(b.get(sfr::TL0), 102, 1);
+    }
+}
+
+TEST(power_down, a_disabled_interrupt_does_not_end_it)
+{
+    for (const int ie : {0x01, 0x80, 0x84})
+    {
+        bare_cpu b;
+        b.load(0, {0x75, sfr::IE, ie, 0x43, sfr::PCON, 0x02});
+        b.run(100);
+        mcs51_set_pins(b.cpu, 3, INT0_PIN, 100);
+        b.run(200);
+        mcs51_set_pins(b.cpu, 3, 0xFF, 200);
+        EXPECT_EQ(b.run(300), MCS51_POWER_DOWN) << ie;
+    }
 }
 
 TEST(power_down, reset_ends_it_and_keeps_ram)

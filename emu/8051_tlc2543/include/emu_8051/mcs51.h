@@ -8,8 +8,7 @@
 /// SPDX-License-Identifier: MIT
 #ifndef EMU_8051_MCS51_H_INCLUDED
 #define EMU_8051_MCS51_H_INCLUDED
-#include "emu/report.h"
-#include "emu/time.h"
+#include "emu_8051/mcs51_config.h"
 #include <stdbool.h>
 #include <stddef.h>
 #ifdef __cplusplus
@@ -18,39 +17,11 @@ extern "C" {
 
 typedef struct mcs51_t mcs51_t;
 
-/// What the port drives changed. `out`: latch AND alternate output (TXD on P3.1): 1 = weak high (P0: Z), 0 = strong low.
-/// `changed`: bits of `out` that differ from before. Called within the instruction that wrote, cycle = its write; for TXD, the UART's cycle.
-typedef void (*mcs51_port_fn)(void* ctx, unsigned port, uint8_t out, uint8_t changed, uint64_t cycle);
-/// Before a pin is read, the outside may bring itself up to date (advance its events to `cycle`); may be NULL.
-typedef void (*mcs51_sync_fn)(void* ctx, uint64_t cycle);
-
-typedef enum mcs51_part_t
-{
-    MCS51_AT89S51 = 0, ///< 4 KB flash, 128 octets of RAM
-    MCS51_AT89S52      ///< 8 KB flash, 256 octets of RAM, timer 2
-} mcs51_part_t;
-
-/// All zero, but for the clock, is an AT89S51 alone.
-typedef struct mcs51_config_t
-{
-    emu_clock_t clock; ///< hz = crystal, divider = 12; only to stamp reports
-    mcs51_port_fn port;
-    mcs51_sync_fn sync;
-    void* ctx; ///< for port and sync
-    emu_report_t report;
-    mcs51_part_t part;
-    /// Flash and, behind it, external code memory, 65536 at most; 0: the flash alone. /EA low, where all of it is external, runs the
-    /// same. The bus does not show on the pins: P0, P2, /RD and /WR are not moved by it, but P0's latch reads FFh after a MOVX.
-    uint32_t code_octets;
-    uint32_t xdata_octets; ///< external RAM from 0000h, 65536 at most; 0: none, and a MOVX is reported
-    uint8_t stack_limit;   ///< last address that the stack may use, beyond it is reported; 0: the top of RAM
-} mcs51_config_t;
-
 typedef enum mcs51_stop_t
 {
     MCS51_RAN = 0, ///< reached until_cycle
     MCS51_HALTED, ///< a jump to itself with interrupts off (EA = 0): nothing can ever happen; time still passes if run again
-    MCS51_POWER_DOWN, ///< PCON.1: the oscillator is stopped until reset, or INT0 or INT1 goes low enabled; cycles pass, nothing counts
+    MCS51_POWER_DOWN, ///< PCON.1: the oscillator is stopped until reset, or INT0 or INT1 enabled; cycles pass, nothing counts
     MCS51_STOPPED ///< by mcs51_stop(), an observer or a breakpoint; run again to go on
 } mcs51_stop_t;
 
@@ -58,8 +29,13 @@ typedef enum mcs51_stop_t
 EMU_API mcs51_t* mcs51_create(const mcs51_config_t* config);
 /// NULL is allowed.
 EMU_API void mcs51_destroy(mcs51_t* self);
-/// Reset pin: SFRs to their reset values, RAM kept. power_on also clears RAM, external too (a choice; silicon is random), and sets POF.
+/// Reset: SFRs to their reset values, RAM kept. power_on also clears RAM, external too (see ram_seed), and sets POF. This and the next two
+/// are for any instant; called from inside a callback, they take effect at the next instruction boundary.
 EMU_API void mcs51_reset(mcs51_t* self, bool power_on);
+/// VCC was too low for the part and is back: reset, POF set, RAM random by `seed` or kept if that is 0. External RAM is kept.
+EMU_API void mcs51_brown_out(mcs51_t* self, uint64_t seed);
+/// Level of the RST pin, now. High for two cycles resets the part and holds it so; it starts when the pin goes low.
+EMU_API void mcs51_hold_reset(mcs51_t* self, bool high);
 /// Into code memory. \return 0, or -1 if it does not fit (nothing written).
 EMU_API int mcs51_load(mcs51_t* self, uint16_t address, const uint8_t* octets, size_t count);
 
