@@ -13,6 +13,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from libins import endpoint, report, run, scenario
 from libins.errors import UsageError
+from libins.program import CONSOLES, Program, address, exit_place
 
 EXIT_USAGE = 2
 
@@ -32,7 +33,10 @@ def parser() -> argparse.ArgumentParser:
         "A scenario with a [matrix] is run once for each combination; its files are numbered F.1.csv, F.2.csv ..., "
         "--json is a list, and the exit code the largest.",
     )
-    r.add_argument("scenario", help="a TOML file, or the name of one that comes with the package (default, s3_paper)")
+    r.add_argument(
+        "scenario",
+        help="a TOML file, the name of one that comes with the package (default, s3_paper), or an image alone (F.ihx)",
+    )
     r.add_argument(
         "--firmware",
         type=Path,
@@ -65,6 +69,7 @@ def parser() -> argparse.ArgumentParser:
         "--wait", action="store_true", help="with --serial: power the board when somebody opens the other end"
     )
     _dds_options(r)
+    _program_options(r)
 
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
 
@@ -73,6 +78,42 @@ def parser() -> argparse.ArgumentParser:
     s.add_argument("--timeout-s", type=float, metavar="S", help="exit 1 when nothing arrives for so long")
     _dds_options(s)
     return grammar
+
+
+def _program_options(command: argparse.ArgumentParser) -> None:
+    group = command.add_argument_group("programs of other makers", "their memory, console, end and exit code")
+    group.add_argument("--part", metavar="NAME", help="at89s51 or at89s52")
+    group.add_argument("--code-octets", type=int, metavar="N", help="code memory, flash and external, up to 65536")
+    group.add_argument("--xdata-octets", type=int, metavar="N", help="external RAM from address 0, up to 65536")
+    group.add_argument(
+        "--console",
+        choices=CONSOLES,
+        help="standard output is what the program writes to SBUF in mode 0, or sends on its line; the rest goes to "
+        "standard error",
+    )
+    group.add_argument("--stop-on-xdata-read", metavar="ADDR", help="reading this address ends the program")
+    group.add_argument(
+        "--exit-from",
+        metavar="PLACE",
+        help="iram:0xNN, xdata:0xNNNN or a register (ACC): the exit code of the program, which `ins run` returns",
+    )
+
+
+def _program(options: argparse.Namespace) -> Program | None:
+    """Raises UsageError."""
+    if {options.console, options.stop_on_xdata_read, options.exit_from} == {None}:
+        return None
+    stop = options.stop_on_xdata_read
+    return Program(
+        options.console,
+        None if stop is None else address(stop, "--stop-on-xdata-read"),
+        None if options.exit_from is None else exit_place(options.exit_from),
+    )
+
+
+def _print_octets(octets: bytes) -> None:
+    sys.stdout.buffer.write(octets)
+    sys.stdout.buffer.flush()
 
 
 def _dds_options(command: argparse.ArgumentParser) -> None:
@@ -137,7 +178,9 @@ def _run_command(options: argparse.Namespace) -> int:
     if options.seed is not None and not 0 <= options.seed < 2**63:
         raise UsageError(f"--seed {options.seed}: must lie in 0 .. 2^63 - 1")
     settings = dict(map(scenario.setting, options.set))
-    settings |= {key: v for key, v in (("seed", options.seed), ("stop_s", options.stop_s)) if v is not None}
+    given = {key: getattr(options, key) for key in ("seed", "stop_s", "part", "code_octets", "xdata_octets")}
+    settings |= {key: value for key, value in given.items() if value is not None}
+    log = sys.stdout if options.console is None else sys.stderr
     runs = scenario.load_all(scenario.find(options.scenario), options.firmware, settings)
     if len(runs) > 1 and options.serial is not None:
         raise UsageError(f"--serial: {options.scenario} makes {len(runs)} runs; choose one with --set and --firmware")
@@ -148,7 +191,7 @@ def _run_command(options: argparse.Namespace) -> int:
             result = _run_one(loaded, options, handle, number if len(runs) > 1 else None)
             results.append((loaded.name, result))
             if str(options.json) != "-":
-                print(report.text(result.summary), flush=True)
+                print(report.text(result.summary), file=log, flush=True)
     finally:
         if handle is not None:
             handle.close()
@@ -162,7 +205,7 @@ def _run_command(options: argparse.Namespace) -> int:
     worst = max(result.exit_code for _, result in results)
     if len(runs) > 1 and str(options.json) != "-":
         passed = sum(result.exit_code == 0 for _, result in results)
-        print(f"{passed} of {len(runs)} runs passed")
+        print(f"{passed} of {len(runs)} runs passed", file=log)
     return worst
 
 
@@ -173,7 +216,9 @@ def _run_one(loaded: scenario.Scenario, options: argparse.Namespace, handle: Any
         return path if number is None else path.with_name(f"{path.stem}.{number}{path.suffix}")
 
     console = Console(stderr=True)
-    settings = run.Options(speed=_speed(options.speed), strict=options.strict)
+    settings = run.Options(speed=_speed(options.speed), strict=options.strict, program=_program(options))
+    if options.console is not None:
+        settings.console = _print_octets
     if handle is not None:
         settings.publish = lambda state: handle.publish(state, loaded.name, time.time_ns())
     trace_lines = ["t_ps,wire,level\n"]

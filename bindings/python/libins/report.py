@@ -35,6 +35,8 @@ def text(summary: dict[str, Any]) -> str:
         f"in {summary['wall_s']:.2f} s ({speed:.0f} times real time)",
         f"cpu       {summary['cpu']['instructions']} instructions, {summary['cpu']['cycles']} machine cycles",
     ]
+    if (program := summary.get("program")) is not None:
+        lines.append(f"program   {program['ended'] or 'did not end'}, exit code {program['exit_code']}")
     if (link := summary["link"]) is not None:
         corrupt = link["corrupt_accepted"]
         lines.append(

@@ -13,6 +13,7 @@ import numpy as np
 from libins import _run
 from libins.endpoint import Endpoint
 from libins.errors import UsageError
+from libins.program import Program
 from libins.scenario import Expect, Scenario, Sinusoid
 
 PS_PER_S = 10**12
@@ -60,6 +61,9 @@ class Options:
     endpoint: Endpoint | None = None
     publish: Callable[[bytes], None] | None = None
     trace: Callable[[Array], None] | None = None
+    program: Program | None = None
+    console: Callable[[bytes], None] | None = None
+    """Takes what the program writes to its console."""
     progress: Callable[[float, Array], None] | None = None
     """Called with the simulated time and the new states."""
 
@@ -145,11 +149,19 @@ def execute(scenario: Scenario, options: Options) -> Result:
     stop_ps = round(stop_s * PS_PER_S)
     reached_samples = False
     pacer = Pacer(speed or 1.0)
-    while run.now_ps < stop_ps and not reached_samples:
+    program = options.program
+    if program is not None:
+        program.start(run)
+    end: str | None = None
+    while run.now_ps < stop_ps and not reached_samples and end is None:
         if speed is None:
             run.until(min(stop_ps, run.now_ps + round(SLICE_S * PS_PER_S)))
         else:
             pacer.step(run, stop_ps, options.endpoint)
+        if program is not None:
+            end = program.ended(run)
+            if options.console is not None:
+                options.console(program.output(run))
         states, raw = run.take_states()
         edges = run.take_edges()
         digest.update(edges.tobytes())
@@ -176,6 +188,7 @@ def execute(scenario: Scenario, options: Options) -> Result:
         "speed": run.now_ps / PS_PER_S / wall_s if wall_s > 0 else None,
         "seed": seed,
         **_measured(scenario, run, states, outside=options.endpoint is not None),
+        **({"program": {"ended": end, "exit_code": program.exit_code(run)}} if program is not None else {}),
         "dds": {"published": published, "received": None} if options.publish is not None else None,
         "trace_sha256": digest.hexdigest(),
         "reports": run.reports(),
@@ -188,7 +201,9 @@ def execute(scenario: Scenario, options: Options) -> Result:
     summary["not_judged"] = [e.value for e, check in zip(tables.expect, checks, strict=False) if not check.judged]
     summary["failed"] = failed
     code = 1 if failed else 0
-    if tables.stop_samples is not None and not reached_samples:
+    if program is not None and end is not None:
+        code = program.exit_code(run) or code
+    if (tables.stop_samples is not None and not reached_samples) or (program is not None and end is None):
         code = 42
     if options.strict and summary["reports"]:
         code = 3

@@ -24,7 +24,7 @@ from libins.schema import Document, field
 PACKAGE = Path(__file__).absolute().parent
 """In the build tree the modules are links: what was built lies beside the links."""
 FLASH_OCTETS = {"at89s51": 4096, "at89s52": 8192}
-BARE: dict[str, Any] = {"schema": 1, "board": "8051_tlc2543", "stop_s": 1e6, "motion": {"kind": "still"}}
+BARE: dict[str, Any] = {"schema": 1, "board": "8051_tlc2543", "stop_s": 60.0, "motion": {"kind": "still"}}
 """The board alone, without a scenario file: gyros at rest, and nobody at the other end of the line."""
 IMAGES = (".ihx", ".hex", ".ihex")
 BOARDS = ("8051_tlc2543",)

@@ -69,6 +69,12 @@ void drive_pin(Run& run, unsigned port, unsigned bit, std::optional<bool> level)
     acq_board_drive_pin(run.board(), port, bit, !level ? EMU_Z : *level ? EMU_STRONG1 : EMU_STRONG0);
 }
 
+nb::bytes take_output(Run& run)
+{
+    const std::string octets = run.program() ? run.program()->take_output() : std::string();
+    return nb::bytes(octets.data(), octets.size());
+}
+
 nb::list take_received(Run& run)
 {
     nb::list list;
@@ -106,6 +112,10 @@ void bind_board(nb::class_<Run>& run)
         .def("write", write, "space"_a, "address"_a, "octets"_a)
         .def("pin", [](const Run& self, unsigned port, unsigned bit) { return acq_board_pin(self.board(), port, bit); })
         .def("drive_pin", drive_pin, "port"_a, "bit"_a, "level"_a.none())
+        .def("watch_program", &Run::watch_program, "console"_a, "end"_a.none())
+        .def("take_output", take_output)
+        .def_prop_ro("ended", [](Run& self) { return self.program() && self.program()->ended(); })
+        .def_prop_ro("halted", &Run::halted)
         .def_prop_ro("pc", [](const Run& self) { return mcs51_pc(self.cpu()); })
         .def(
             "set_break", [](Run& self, uint16_t pc, bool on) { mcs51_set_break(self.cpu(), pc, on); }, "pc"_a, "on"_a)

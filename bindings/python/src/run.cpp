@@ -72,6 +72,7 @@ Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const in
         throw std::invalid_argument(
             "the board could not be made: out of memory, or a crystal or memory outside its range");
     }
+    observers_.emplace(cpu());
     for (const Segment& segment : config_.image)
     {
         const auto* octets = reinterpret_cast<const uint8_t*>(segment.octets.data());
@@ -122,6 +123,7 @@ bool Run::until(emu_time_t t)
     {
         const emu_time_t next = config_.nav ? std::min(t, (sched_.now / tick + 1) * tick) : t;
         const mcs51_stop_t stop = acq_board_run(board_.get(), next);
+        halted_ = stop == MCS51_HALTED;
         if (config_.nav)
         {
             ins_nav_link_tick(&link_, static_cast<uint64_t>(sched_.now / tick));

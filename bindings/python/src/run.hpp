@@ -10,6 +10,8 @@
 #include "ins_nav/nav.h"
 #include "ins_truth/gyro.h"
 #include "ins_truth/motion.h"
+#include "observers.hpp"
+#include "program.hpp"
 #include <array>
 #include <memory>
 #include <optional>
@@ -104,6 +106,15 @@ class Run
     bool until(emu_time_t t);
     /// As until(), but no further than the first octet that the host receives.
     bool until_octet(emu_time_t t);
+    Observers& observers() { return *observers_; }
+    /// See program.hpp; anew each time.
+    void watch_program(bool console, std::optional<uint16_t> end)
+    {
+        program_.emplace(cpu(), *observers_, console, end);
+    }
+    std::optional<Program>& program() { return program_; }
+    /// Nothing more will happen: the firmware jumps to itself with interrupts off.
+    bool halted() const { return halted_; }
     /// From this instant on.
     void set_motion(std::shared_ptr<ins_motion_t> motion);
     /// Octets from the outside; \return how many the transmitter took.
@@ -152,6 +163,9 @@ class Run
     ins_gyro_t gyro_{};
     emu_sched_t sched_{};
     std::unique_ptr<acq_board_t, BoardDeleter> board_;
+    std::optional<Observers> observers_;
+    std::optional<Program> program_;
+    bool halted_ = false;
     emu_wire_t host_rxd_{}, host_txd_{};
     std::array<emu_serial_line_t, 2> lines_{};
     std::vector<emu_serial_cut_t> cuts_;
