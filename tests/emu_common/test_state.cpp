@@ -216,7 +216,7 @@ TEST(state, wire_comes_back_without_telling_and_refuses_another_number_of_driver
     EXPECT_TRUE(b.wire.level) << "the other driver is back as well";
     EXPECT_FALSE(load(&c, octets));
     std::vector<uint8_t> bad = octets;
-    bad[1] = EMU_STRONG1 + 1;
+    bad[1] = 3;
     EXPECT_FALSE(load(&b, bad));
 }
 

@@ -108,6 +108,8 @@ void bind_board(nb::class_<Run>& run)
 {
     run.def("until_octet", &Run::until_octet, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
         .def("take_received", take_received)
+        .def("set_volts", &Run::set_volts, "channel"_a, "volts"_a)
+        .def("clear_volts", &Run::clear_volts, "channel"_a)
         .def("read", read, "space"_a, "address"_a, "count"_a)
         .def("write", write, "space"_a, "address"_a, "octets"_a)
         .def("pin", [](const Run& self, unsigned port, unsigned bit) { return acq_board_pin(self.board(), port, bit); })

@@ -56,12 +56,12 @@ Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const in
     }
     emu_sched_init(&sched_);
     acq_board_config_t board;
-    acq_board_default_config(&board);
+    (config_.six ? acq_board_six_config : acq_board_default_config)(&board);
     board.part = config_.part;
     board.code_octets = config_.code_octets;
     board.xdata_octets = config_.xdata_octets;
     board.crystal_hz = config_.crystal_hz;
-    board.adc.analog = {ins_gyro_volts, &gyro_};
+    board.adc.analog = {on_volts, this};
     board.adc.sampled = on_sample;
     board.adc.sampled_ctx = this;
     board.adc.report = {on_report, this};
@@ -158,6 +158,13 @@ size_t Run::send(const std::string& octets)
         taken++;
     }
     return taken;
+}
+
+double Run::on_volts(void* ctx, unsigned channel, int64_t t)
+{
+    Run& self = *static_cast<Run*>(ctx);
+    const auto held = self.volts_.find(channel);
+    return held != self.volts_.end() ? held->second : ins_gyro_volts(&self.gyro_, channel, t);
 }
 
 void Run::on_sample(void* ctx, unsigned channel, uint16_t code, double, emu_time_t at)

@@ -13,6 +13,7 @@
 #include "observers.hpp"
 #include "program.hpp"
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -87,6 +88,7 @@ struct RunConfig
     std::optional<ins_nav_config_t> nav; ///< nothing: the outside plays the host
     bool start_at_truth = true;          ///< the navigator gets the truth at its first sample
     bool trace = false;
+    bool six = false;    ///< the board of acq_board_six_config()
     bool listen = false; ///< keep the octets that the host receives, also where the navigator takes them
 };
 
@@ -115,6 +117,9 @@ class Run
     std::optional<Program>& program() { return program_; }
     /// Nothing more will happen: the firmware jumps to itself with interrupts off.
     bool halted() const { return halted_; }
+    /// From now on that many volts on an analogue input, whatever the motion says, until they are cleared.
+    void set_volts(unsigned channel, double volts) { volts_[channel] = volts; }
+    void clear_volts(unsigned channel) { volts_.erase(channel); }
     /// From this instant on.
     void set_motion(std::shared_ptr<ins_motion_t> motion);
     /// Octets from the outside; \return how many the transmitter took.
@@ -145,6 +150,7 @@ class Run
         Run* run;
         unsigned wire;
     };
+    static double on_volts(void* ctx, unsigned channel, int64_t t);
     static void on_sample(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at);
     static void on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at);
     static void on_edge(void* ctx, bool level, emu_time_t at);
@@ -161,6 +167,7 @@ class Run
     RunConfig config_;
     std::shared_ptr<ins_motion_t> motion_;
     ins_gyro_t gyro_{};
+    std::map<unsigned, double> volts_; ///< set by hand
     emu_sched_t sched_{};
     std::unique_ptr<acq_board_t, BoardDeleter> board_;
     std::optional<Observers> observers_;

@@ -318,6 +318,7 @@ NB_MODULE(_run, m)
         .def_rw("nav", &RunConfig::nav)
         .def_rw("start_at_truth", &RunConfig::start_at_truth)
         .def_rw("trace", &RunConfig::trace)
+        .def_rw("six", &RunConfig::six)
         .def_rw("listen", &RunConfig::listen)
         .def(
             "add_segment",

@@ -119,8 +119,9 @@ static double input_volts(const tlc2543_t* self, unsigned address, emu_time_t at
     case ADDRESS_HIGH:
         return high;
     default:
-        return self->config.analog.volts != NULL ? self->config.analog.volts(self->config.analog.ctx, address, at)
-                                                 : low;
+        return self->config.analog.volts != NULL
+                   ? self->config.analog.volts(self->config.analog.ctx, self->config.first_channel + address, at)
+                   : low;
     }
 }
 
@@ -164,7 +165,7 @@ static void sample(tlc2543_t* self, emu_time_t at)
         code = convert(self, volts);
         if (self->config.sampled != NULL)
         {
-            self->config.sampled(self->config.sampled_ctx, address, code, volts, at);
+            self->config.sampled(self->config.sampled_ctx, self->config.first_channel + address, code, volts, at);
         }
     }
     else
@@ -312,5 +313,30 @@ void tlc2543_destroy(tlc2543_t* self)
         emu_sched_cancel(self->sched, &self->eoc_event);
         emu_sched_cancel(self->sched, &self->enable_event);
         free(self);
+    }
+}
+
+void tlc2543_state(tlc2543_t* self, emu_state_t* io)
+{
+    uint32_t rises = self->rises, falls = self->falls;
+    emu_state_tag(io, "2543", 1);
+    emu_event_state(self->sched, &self->eoc_event, io);
+    emu_event_state(self->sched, &self->enable_event, io);
+    emu_state_bool(io, &self->selected);
+    emu_state_bool(io, &self->enabled);
+    emu_state_bool(io, &self->converting);
+    emu_state_bool(io, &self->eoc_low);
+    emu_state_u32(io, &rises);
+    emu_state_u32(io, &falls);
+    emu_state_u8(io, &self->input);
+    emu_state_u16(io, &self->word);
+    emu_state_u16(io, &self->pending);
+    emu_state_i64(io, &self->cs_fall);
+    emu_state_i64(io, &self->last_fall);
+    emu_state_check(io, emu_state_time(self->cs_fall) && emu_state_time(self->last_fall));
+    if (!io->bad)
+    {
+        self->rises = rises;
+        self->falls = falls;
     }
 }

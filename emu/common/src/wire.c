@@ -24,49 +24,37 @@ int emu_wire_watch(emu_wire_t* self, emu_wire_fn fn, void* ctx)
     return 0;
 }
 
-static unsigned present(const emu_wire_t* self)
+/// What a driver's four bits are, by emu_drive_t.
+static const uint8_t strength[] = {0, 1, 2, 4, 8};
+#define WEAK0   1u
+#define STRONG0 4u
+#define STRONG1 8u
+
+/// Strengths that are there.
+static unsigned present(uint32_t drives)
 {
-    unsigned set = 0;
-    for (unsigned i = 0; i < self->drivers; i++)
-    {
-        set |= 1u << self->drive[i];
-    }
-    return set;
+    drives |= drives >> 16;
+    drives |= drives >> 8;
+    return (drives | drives >> 4) & 15u;
 }
 
 static bool contends(unsigned set)
 {
-    const unsigned both = 1u << EMU_STRONG0 | 1u << EMU_STRONG1;
-    return (set & both) == both;
+    return (set & (STRONG0 | STRONG1)) == (STRONG0 | STRONG1);
 }
 
 void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t at)
 {
-    const unsigned before = present(self);
-    self->drive[driver] = (uint8_t)drive;
-    const unsigned set = present(self);
-    if (contends(set) && !contends(before))
+    const unsigned shift = 4u * (unsigned)driver;
+    const uint32_t drives = (self->drives & ~(15u << shift)) | (uint32_t)strength[drive] << shift;
+    const unsigned set = present(drives);
+    if (contends(set) && !contends(present(self->drives)))
     {
         self->contentions++;
     }
-    self->floating = (set & ~(1u << EMU_Z)) == 0;
-    bool level = self->level;
-    if ((set & 1u << EMU_STRONG0) != 0)
-    {
-        level = false;
-    }
-    else if ((set & 1u << EMU_STRONG1) != 0)
-    {
-        level = true;
-    }
-    else if ((set & 1u << EMU_WEAK0) != 0)
-    {
-        level = false;
-    }
-    else if ((set & 1u << EMU_WEAK1) != 0)
-    {
-        level = true;
-    }
+    self->drives = drives;
+    self->floating = set == 0;
+    const bool level = set == 0 ? self->level : (set & STRONG0) == 0 && ((set & STRONG1) != 0 || (set & WEAK0) == 0);
     if (level != self->level)
     {
         self->level = level;
@@ -82,10 +70,11 @@ void emu_wire_state(emu_wire_t* self, emu_state_t* io)
     uint8_t drivers = self->drivers;
     emu_state_u8(io, &drivers);
     emu_state_check(io, drivers == self->drivers);
-    for (unsigned i = 0; i < self->drivers; i++)
+    emu_state_u32(io, &self->drives);
+    for (unsigned i = 0; i < EMU_WIRE_DRIVERS; i++)
     {
-        emu_state_u8(io, &self->drive[i]);
-        emu_state_check(io, self->drive[i] <= EMU_STRONG1);
+        const uint32_t bits = self->drives >> 4 * i & 15u;
+        emu_state_check(io, (bits & (bits - 1)) == 0 && (i < self->drivers || bits == 0));
     }
     emu_state_bool(io, &self->level);
     emu_state_bool(io, &self->floating);

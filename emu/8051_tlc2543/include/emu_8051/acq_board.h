@@ -1,7 +1,7 @@
 /// \file   emu_8051/acq_board.h
-/// \brief  The acquisition board of Zheng and Zhou (2010): AT89S51 + TLC2543 + three gyro channels, UART on P3.0/P3.1.
+/// \brief  The acquisition board of Zheng and Zhou (2010) and its variants: an MCS-51, TLC2543s on its pins, UART on P3.0/P3.1.
 ///
-/// Wiring: P1.0 EOC, P1.1 I/O CLOCK, P1.2 DATA IN, P1.3 DATA OUT, P1.4 /CS; 11.0592 MHz. AIN0..2 are X, Y, Z.
+/// Every port pin is a net that the outside may drive and watch. Which pins the converters are on is the configuration's.
 /// SPDX-License-Identifier: MIT
 #ifndef EMU_8051_ACQ_BOARD_H_INCLUDED
 #define EMU_8051_ACQ_BOARD_H_INCLUDED
@@ -11,12 +11,28 @@
 extern "C" {
 #endif
 
+#define ACQ_ADCS_MAX 4
+
 typedef struct acq_board_t acq_board_t;
+
+typedef struct acq_pin_t
+{
+    uint8_t port, bit; ///< P1.4: {1, 4}
+} acq_pin_t;
+
+/// One converter. Pins may be shared: clocks and data in always, /CS where converters work in step, DATA OUT where they do not.
+typedef struct acq_adc_t
+{
+    acq_pin_t eoc, io_clock, data_in, data_out, cs_n;
+    uint8_t first_channel; ///< AIN0 is this channel of config.adc's analog and sampled
+} acq_adc_t;
 
 typedef struct acq_board_config_t
 {
     uint64_t crystal_hz;  ///< 11059200; 1 to 1e9
-    tlc2543_config_t adc; ///< analog, sampled and report included
+    tlc2543_config_t adc; ///< of each; analog, sampled and report included
+    acq_adc_t adcs[ACQ_ADCS_MAX];
+    unsigned adc_count; ///< 0..ACQ_ADCS_MAX
     emu_report_t report;
     mcs51_part_t part; ///< these as in mcs51_config_t
     uint32_t code_octets;
@@ -24,8 +40,12 @@ typedef struct acq_board_config_t
     uint8_t stack_limit;
 } acq_board_config_t;
 
-/// 11.0592 MHz, the converter of tlc2543_default_config(), no reports.
+/// 11.0592 MHz, one converter as tlc2543_default_config() says: P1.0 EOC, P1.1 I/O CLOCK, P1.2 DATA IN, P1.3 DATA OUT, P1.4 /CS;
+/// AIN0..2 are X, Y, Z. No reports.
 EMU_API void acq_board_default_config(acq_board_config_t* config);
+/// The same for six accelerometers, by wiring alone: a second converter in step with the first, on the same clock, DATA IN and /CS, with
+/// EOC on P1.5 and DATA OUT on P1.6. Both sample in the same instant; channels 0..2 are AIN0..2 of the first, 3..5 of the second.
+EMU_API void acq_board_six_config(acq_board_config_t* config);
 /// The board lives on a run's scheduler, from instant 0, and is its executor (it sets sched->earlier). \return NULL when memory is out or config is bad.
 EMU_API acq_board_t* acq_board_create(const acq_board_config_t* config, emu_sched_t* sched);
 /// NULL is allowed.
@@ -36,12 +56,15 @@ EMU_API void acq_board_destroy(acq_board_t* self);
 EMU_API mcs51_stop_t acq_board_run(acq_board_t* self, emu_time_t t);
 /// The board's own CPU, to load and to inspect.
 EMU_API mcs51_t* acq_board_cpu(acq_board_t* self);
-/// By schematic name: "EOC", "I/O CLOCK", "DATA IN", "DATA OUT", "/CS", "TXD", "RXD". NULL if there is none.
+/// By pin, "P1.4", or by what is on it: "EOC", "I/O CLOCK", "DATA IN", "DATA OUT", "/CS", of a further converter "/CS 2"; "TXD", "RXD".
+/// NULL if there is none.
 EMU_API emu_wire_t* acq_board_wire(acq_board_t* self, const char* name);
-/// Level of a pin of the CPU, port 0..3 and bit 0..7, on a net or not.
+/// Level of a pin of the CPU, port 0..3 and bit 0..7.
 EMU_API bool acq_board_pin(const acq_board_t* self, unsigned port, unsigned bit);
 /// What a probe on that pin drives from now on, between runs; EMU_Z takes it away.
 EMU_API void acq_board_drive_pin(acq_board_t* self, unsigned port, unsigned bit, emu_drive_t drive);
+/// From now on the crystal is off by so many 1e-9 of crystal_hz; |ppb| <= EMU_PPB_MAX.
+EMU_API void acq_board_set_crystal(acq_board_t* self, int32_t ppb);
 
 #ifdef __cplusplus
 }

@@ -15,7 +15,7 @@ extern "C" {
 #endif
 
 /// A sample was taken: `at` is the end of acquisition (the last falling I/O CLOCK edge), `code` straight binary, 12 bits, whatever
-/// the format of the transfer. channel 0..10 are inputs, 11..13 self-test. An abort may still discard it.
+/// the format of the transfer. channel, from config.first_channel: 0..10 are inputs, 11..13 self-test. An abort may still discard it.
 typedef void (*tlc2543_sample_fn)(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at);
 
 typedef struct tlc2543_config_t
@@ -27,6 +27,7 @@ typedef struct tlc2543_config_t
     emu_time_t t_enable; ///< /CS low to DATA OUT driven, 0.7 us typical, 1.3 us maximum
     double offset_lsb, gain_lsb; ///< static errors, 0 by default; gain_lsb at full scale
     emu_analog_t analog;         ///< volts NULL: all inputs at REF-
+    unsigned first_channel;      ///< AIN0 is this channel to `analog` and `sampled`, the self-tests 11 to 13 after it
     tlc2543_sample_fn sampled;   ///< may be NULL
     void* sampled_ctx;
     emu_report_t report;
@@ -41,6 +42,8 @@ EMU_API tlc2543_t* tlc2543_create(const tlc2543_config_t* config, emu_sched_t* s
                                   emu_wire_t* io_clock, emu_wire_t* data_in, emu_wire_t* data_out, emu_wire_t* cs_n);
 /// NULL is allowed.
 EMU_API void tlc2543_destroy(tlc2543_t* self);
+/// The transfer, the conversion and the word. After emu_sched_state; its wires are their owner's.
+EMU_API void tlc2543_state(tlc2543_t* self, emu_state_t* io);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,8 @@
 /// \file   emu/time.h
 /// \brief  Virtual time: integer picoseconds, and clock domains whose ticks land on it with exact remainders.
 ///
-/// Tick k of a domain of `hz` ticks a second lies at floor(k * 1e12 / hz) ps: no drift, however long the run.
+/// Tick k of a domain of `hz` ticks a second lies at floor(k * 1e12 / hz) ps: no error piles up, however long the run.
+/// emu_ticker_t (emu/ticker.h) is a clock that is off, and drifts.
 /// SPDX-License-Identifier: MIT
 #ifndef EMU_TIME_H_INCLUDED
 #define EMU_TIME_H_INCLUDED

@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-#define EMU_WIRE_DRIVERS  4
+#define EMU_WIRE_DRIVERS  8
 #define EMU_WIRE_WATCHERS 8
 
 typedef enum emu_drive_t
@@ -28,9 +28,8 @@ typedef void (*emu_wire_fn)(void* ctx, bool level, emu_time_t at);
 typedef struct emu_wire_t
 {
     const char* name; ///< as on the schematic: "P1.3 DATA OUT"
-    uint8_t drivers;
-    uint8_t drive[EMU_WIRE_DRIVERS]; ///< emu_drive_t of each
-    uint8_t watchers;
+    uint8_t drivers, watchers;
+    uint32_t drives; ///< four bits a driver, one for each strength but Z
     struct
     {
         emu_wire_fn fn;
