@@ -1,6 +1,8 @@
 """A wheel built from the repository, installed in a bare environment, runs there without a compiler."""
 
+import importlib.metadata
 import importlib.util
+import json
 import subprocess
 import sys
 import venv
@@ -8,7 +10,10 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from packaging.requirements import Requirement
 from reference import ROOT
+
+IMAGES = ("acq_default", "acq_s3_paper", "acq_80ms_seq", "acq_57600")
 
 PROGRAM = """
 import numpy as np
@@ -36,26 +41,68 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
-def test_what_the_wheel_holds(wheel: Path):
-    names = zipfile.ZipFile(wheel).namelist()
-    package = sorted(
-        n.removeprefix("libins/").split(".")[0] + "." + n.rsplit(".", 1)[1] for n in names if n.startswith("libins/")
-    )
-    assert package == ["__init__.py", "core.pyi", "core.so", "coref.pyi", "coref.so", "py.typed"]
-    version = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8").split("project(libins VERSION ")[1].split()[0]
-    assert wheel.name.startswith(f"libins-{version}-")
-    metadata = next(n for n in names if n.endswith("METADATA"))
-    assert "Requires-Dist: numpy" in zipfile.ZipFile(wheel).read(metadata).decode()
-
-
-def test_it_runs_in_a_bare_environment(wheel: Path, tmp_path: Path):
-    venv.create(tmp_path / "bare", with_pip=False)
-    python = tmp_path / "bare/bin/python"
+@pytest.fixture(scope="module")
+def bare(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The wheel and what it says it requires, as those are here; nothing else of this environment, and no pip."""
+    folder = tmp_path_factory.mktemp("bare")
+    venv.create(folder / "bare", with_pip=False)
+    python = folder / "bare/bin/python"
     site = Path(run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
     run(sys.executable, "-m", "pip", "--python", python, "install", "--no-deps", "--no-index", "--quiet", wheel)
-    # NumPy as it is here, and nothing else of this environment.
-    numpy = Path(importlib.util.find_spec("numpy").origin).parent
-    for folder in (numpy, numpy.with_name("numpy.libs")):
-        (site / folder.name).symlink_to(folder)
-    shown = run(python, "-I", "-c", PROGRAM, cwd=tmp_path, env={"PATH": ""})
-    assert shown.startswith("(100, 4)") and str(site) in shown
+    metadata = importlib.metadata.PathDistribution(next(site.glob("libins-*.dist-info")))
+    for name in required(metadata):
+        for part in {str(file).split("/")[0] for file in importlib.metadata.distribution(name).files or []}:
+            source = Path(str(importlib.metadata.distribution(name).locate_file(part)))
+            if part != ".." and not (site / part).exists():
+                (site / part).symlink_to(source)
+    return python.parent
+
+
+def required(distribution: importlib.metadata.Distribution, found: frozenset[str] = frozenset()) -> frozenset[str]:
+    """Names of what a distribution requires without extras, and what those require."""
+    for text in distribution.requires or []:
+        requirement = Requirement(text)
+        wanted = requirement.marker is None or requirement.marker.evaluate({"extra": ""})
+        if wanted and requirement.name not in found:
+            other = importlib.metadata.distribution(requirement.name)
+            assert requirement.specifier.contains(other.version), f"{text}, but {other.version} is here"
+            found = required(other, found | {requirement.name})
+    return found
+
+
+def test_what_the_wheel_holds(wheel: Path):
+    names = {n.removeprefix("libins/") for n in zipfile.ZipFile(wheel).namelist() if n.startswith("libins/")}
+    sources = {p.name for p in (ROOT / "bindings/python/libins").iterdir() if p.suffix in {".py", ".html", ".typed"}}
+    built = {f"{module}.pyi" for module in ("core", "coref", "_run")}
+    images = {f"firmware/{n}{kind}" for n in IMAGES for kind in (".ihx", "_debug.ihx", "_debug.cdb")}
+    scenarios = {f"scenarios/{p.name}" for p in (ROOT / "emu/8051_tlc2543/scenarios").iterdir()}
+    libraries = {n for n in names if n.endswith(".so")}
+    assert {n.split(".")[0] for n in libraries} == {"core", "coref", "_run"}
+    assert names - libraries == sources | built | images | scenarios | {"bin/ins-navd"}
+    version = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8").split("project(libins VERSION ")[1].split()[0]
+    assert wheel.name.startswith(f"libins-{version}-")
+
+
+def test_the_core_runs_in_a_bare_environment(bare: Path, tmp_path: Path):
+    shown = run(bare / "python", "-I", "-c", PROGRAM, cwd=tmp_path, env={"PATH": ""})
+    assert shown.startswith("(100, 4)") and str(bare.parent) in shown
+
+
+def test_a_board_runs_in_a_bare_environment(bare: Path, tmp_path: Path):
+    """The same bytes as from the build tree: every edge of every wire."""
+    out = tmp_path / "s.json"
+    shown = run(bare / "ins", "run", "default", "--stop-s", 3, "--json", out, cwd=tmp_path, env={"PATH": ""})
+    assert "verdict   pass" in shown
+    here = tmp_path / "here.json"
+    run(sys.executable, "-m", "libins", "run", "default", "--stop-s", 3, "--json", here)
+    kept, built = (json.loads(path.read_text(encoding="utf-8")) for path in (out, here))
+    assert kept["trace_sha256"] == built["trace_sha256"] and kept["attitude"] == built["attitude"]
+    assert "usage: ins-navd" in run(bare / "ins", "nav", "--help", env={"PATH": ""}).replace("Usage", "usage")
+
+
+def test_an_extra_that_is_missing_is_named(bare: Path, tmp_path: Path):
+    command = [bare / "ins", "run", "default", "--stop-s", "0.1", "--report", tmp_path / "r.html"]
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, env={"PATH": ""})
+    assert done.returncode == 2, done.stdout + done.stderr
+    assert "pip install 'libins[report]'" in done.stderr and "Traceback" not in done.stderr
+    assert not (tmp_path / "r.html").exists()

@@ -20,9 +20,10 @@ from pathlib import Path
 from typing import Any
 
 from libins import cdb, run, scenario, snapshot
-from libins.board_uart import ExpectError, Inbox, Octet, Pattern, failure
+from libins.board_uart import ExpectError, Inbox, Octet, Pattern, failure, seconds, shown
 from libins.board_views import Memory, Pins, Registers, Variables, Volts
 from libins.errors import UsageError
+from libins.report import report_line
 from libins.run import PS_PER_S
 from libins.schema import Document
 from libins.snapshot import Snapshot
@@ -203,7 +204,7 @@ class Board:
         if not matched() and not self._advance(end, matched, to_octet=True):
             wanted = repr(pattern if isinstance(pattern, bytes) else pattern.pattern)
             baud = self.scenario.tables.link.baud
-            raise ExpectError(failure(wanted, self._inbox, start, self.now_ps, baud, self.where(), _seconds))
+            raise ExpectError(failure(wanted, self._inbox, start, self.now_ps, baud, self.where()))
         return found[0]
 
     @property
@@ -258,6 +259,16 @@ class Board:
         names = [f"in {function.name}()"] if function else []
         names += [f"{line.file}:{line.number}"] if line else []
         return " ".join([f"pc {pc:#06x}", *names])
+
+    def describe(self) -> str:
+        """Where the board is, what it has to say about the firmware, and the last lines that the host received."""
+        tables = self.scenario.tables
+        firmware = self.scenario.firmware.name
+        lines = [f"{firmware} on {tables.part}, seed {tables.seed}, {seconds(self.now_ps)}, {self.where()}"]
+        lines += [f"{r['kind']}: {report_line(r)}" for r in self.reports]
+        octets = self._inbox.octets
+        lines += [f"received, {len(octets)} octets kept:", *shown(octets, tables.link.baud)]
+        return "\n".join(lines)
 
     def states(self) -> run.Array:
         """With the navigator, its new states; columns as in libins._run.STATE_COLUMNS."""
@@ -356,7 +367,3 @@ def _image(firmware: str | Path) -> str:
     """Where it is from here, or the name of one that comes with the package."""
     path = Path(firmware)
     return str(path.absolute() if path.is_file() else path)
-
-
-def _seconds(at_ps: int) -> str:
-    return f"{at_ps / PS_PER_S:.6f} s"

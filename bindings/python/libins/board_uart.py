@@ -1,7 +1,7 @@
 """The host's end of the board's serial line, as a test plays it: what came, when, and what was expected instead."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import NamedTuple
 
 Pattern = bytes | re.Pattern[bytes]
@@ -55,9 +55,7 @@ class Inbox:
         return match
 
 
-def failure(
-    wanted: str, inbox: Inbox, from_ps: int, now_ps: int, baud: float, where: str, seconds: Callable[[int], str]
-) -> str:
+def failure(wanted: str, inbox: Inbox, from_ps: int, now_ps: int, baud: float, where: str) -> str:
     """Why an expectation was not met: what came instead, decoded, and when."""
     span = f"from {seconds(from_ps)} to {seconds(now_ps)}"
     came = inbox.octets[inbox.read :]
@@ -66,10 +64,19 @@ def failure(
         return f"{wanted} did not come {span}: nothing came{last}; {where}"
     bad = sum(not octet.framing_ok for octet in came)
     hint = f"; {bad} of {len(came)} octets had no stop bit: is the board's line at {baud:g} Bd?" if bad else ""
-    lines = [f"  {seconds(line[0].at_ps)}  {_decoded(line)}" for line in _lines(came, baud)]
-    if len(lines) > SHOWN:
-        lines = [f"  ... {len(lines) - SHOWN} lines before", *lines[-SHOWN:]]
-    return "\n".join([f"{wanted} did not come {span}; {where}{hint}", f"came instead, {len(came)} octets:", *lines])
+    lines = [f"{wanted} did not come {span}; {where}{hint}", f"came instead, {len(came)} octets:"]
+    return "\n".join([*lines, *shown(came, baud)])
+
+
+def shown(octets: list[Octet], baud: float) -> list[str]:
+    """The last lines of what came, decoded, each with its first octet's instant."""
+    lines = [f"  {seconds(line[0].at_ps)}  {_decoded(line)}" for line in _lines(octets, baud)] if octets else []
+    return lines if len(lines) <= SHOWN else [f"  ... {len(lines) - SHOWN} lines before", *lines[-SHOWN:]]
+
+
+def seconds(at_ps: int) -> str:
+    """An instant, for a message."""
+    return f"{at_ps * 1e-12:.6f} s"
 
 
 def _lines(octets: list[Octet], baud: float) -> Iterator[list[Octet]]:

@@ -1,11 +1,13 @@
 """What one reads and pokes on a board: memories, registers, pins, volts and C variables."""
 
+import difflib
 import re
 from collections.abc import Callable, Iterator, MutableMapping
 from typing import Any
 
-from libins import cdb_types, sfr
+from libins import cdb_types
 from libins.cdb import Cdb, Space, Symbol
+from libins.disasm import SFR
 from libins.errors import UsageError
 
 Do = Callable[..., Any]
@@ -55,6 +57,15 @@ class Memory:
         self._do("write", self._name, start, octets)
 
 
+def sfr_address(name: str) -> int:
+    """Of a special function register by the data sheet's name. Raises UsageError."""
+    if name.upper() in SFR:
+        return SFR[name.upper()]
+    near = difflib.get_close_matches(name.upper(), SFR, n=1)
+    hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(SFR)}"
+    raise UsageError(f"{name}: no special function register; {hint}")
+
+
 class Registers:
     """Special function registers by the data sheet's name or by address; of a port, its latch."""
 
@@ -72,7 +83,7 @@ class Registers:
 
     @staticmethod
     def _address(name: str | int) -> int:
-        address = sfr.address(name) if isinstance(name, str) else name
+        address = sfr_address(name) if isinstance(name, str) else name
         if not 0x80 <= address <= 0xFF:
             raise UsageError(f"sfr[{address:#x}]: special function registers lie in 0x80 .. 0xff")
         return address

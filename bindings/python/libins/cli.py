@@ -177,6 +177,8 @@ def _run_command(options: argparse.Namespace) -> int:
         raise UsageError(f"--stop-s {options.stop_s}: must lie above 0 and up to 1e6")
     if options.seed is not None and not 0 <= options.seed < 2**63:
         raise UsageError(f"--seed {options.seed}: must lie in 0 .. 2^63 - 1")
+    if options.report is not None:
+        _page()  # missing before the run rather than after it
     settings = dict(map(scenario.setting, options.set))
     given = {key: getattr(options, key) for key in ("seed", "stop_s", "part", "code_octets", "xdata_octets")}
     settings |= {key: value for key, value in given.items() if value is not None}
@@ -250,10 +252,17 @@ def _run_one(loaded: scenario.Scenario, options: argparse.Namespace, handle: Any
     if options.trace is not None:
         _write(place(options.trace), "".join(trace_lines))
     if options.report is not None:
-        from libins import page  # matplotlib takes a second to import
-
-        _write(place(options.report), page.html(loaded, result))
+        _write(place(options.report), _page().html(loaded, result))
     return result
+
+
+def _page() -> Any:
+    """The module that draws reports, imported where it is needed: matplotlib takes a second. Raises UsageError."""
+    try:
+        from libins import page
+    except ImportError as error:
+        raise UsageError(f"--report: {error.name} is missing; pip install 'libins[report]'") from error
+    return page
 
 
 def navd_path() -> Path:

@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from libins import sfr
+from libins.board_views import sfr_address
 from libins.errors import UsageError
 
 CONSOLES = ("sbuf0", "uart")
@@ -54,4 +54,4 @@ def exit_place(text: str) -> tuple[str, int]:
     space, colon, number = text.partition(":")
     if colon and space not in SPACES:
         raise UsageError(f"--exit-from {text}: iram:0xNN, xdata:0xNNNN or a register such as ACC is needed")
-    return (space, address(number, f"--exit-from {space}:", SPACES[space])) if colon else ("sfr", sfr.address(text))
+    return (space, address(number, f"--exit-from {space}:", SPACES[space])) if colon else ("sfr", sfr_address(text))
