@@ -11,7 +11,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from libins import endpoint, report, run, scenario
+from libins import campaign, endpoint, report, run, scenario
 from libins.errors import UsageError
 from libins.program import CONSOLES, Program, address, exit_place
 
@@ -70,6 +70,14 @@ def parser() -> argparse.ArgumentParser:
     )
     _dds_options(r)
     _program_options(r)
+
+    c = commands.add_parser(
+        "campaign",
+        help="run a scenario many times with seeded variations, into a table",
+        description="Exit codes: 0 every run passed, 1 not every one, 2 bad usage or scenario. Interrupted, the same "
+        "command goes on.",
+    )
+    campaign.add_options(c)
 
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
 
@@ -307,7 +315,8 @@ def main(arguments: list[str] | None = None) -> int:
             path = navd_path()
             os.execv(path, [str(path), *arguments[1:]])
         options = parser().parse_args(arguments)
-        return _run_command(options) if options.command == "run" else _sub_command(options)
+        command = {"run": _run_command, "campaign": campaign.command, "sub": _sub_command}[options.command]
+        return command(options)
     except UsageError as error:
         print(f"ins: {error}", file=sys.stderr)
         return EXIT_USAGE

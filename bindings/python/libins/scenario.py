@@ -28,6 +28,8 @@ BARE: dict[str, Any] = {"schema": 1, "board": "8051_tlc2543", "stop_s": 60.0, "m
 """The board alone, without a scenario file: gyros at rest, and nobody at the other end of the line."""
 IMAGES = (".ihx", ".hex", ".ihex")
 BOARDS = ("8051_tlc2543",)
+VARYING = ("matrix", "campaign")
+"""Tables that say which keys are varied."""
 MATRIX_LIMIT = 10_000
 """Combinations of one scenario; more are a campaign's."""
 FORMS = ("one", "hist1", "hist2_fit", "hist2_opt", "hist3_fit", "hist3_opt")
@@ -155,24 +157,31 @@ def load(
     firmware: Path | None = None,
     settings: Mapping[str, Any] | None = None,
     combination: Mapping[str, Any] | None = None,
+    origin: str = "matrix",
 ) -> Scenario:
     """Read and check a scenario and the files it names. Raises UsageError.
 
     An Intel HEX image in the place of a scenario runs on a bare board. settings and combination replace keys by dotted
-    name: from the command line, and from the scenario's own matrix.
+    name: from the command line, and from the table called origin.
     """
     if path.suffix in IMAGES:
         document, firmware = Document(path, copy.deepcopy(BARE)), firmware or path
     else:
         document = Document(path)
     document.override(settings or {}, "--set")
-    return read(document, firmware, combination)
+    return read(document, firmware, combination, origin)
 
 
-def read(document: Document, firmware: Path | None, combination: Mapping[str, Any] | None = None) -> Scenario:
+def read(
+    document: Document,
+    firmware: Path | None,
+    combination: Mapping[str, Any] | None = None,
+    origin: str = "matrix",
+) -> Scenario:
     """A scenario from its document. Raises UsageError."""
-    document.override(combination or {}, "matrix")
-    document.table.pop("matrix", None)
+    document.override(combination or {}, origin)
+    for varying in VARYING:
+        document.table.pop(varying, None)
     if firmware is not None:
         document.table.setdefault("firmware", firmware.name)
     tables = document.parse(Tables, document.table)

@@ -7,7 +7,7 @@ import re
 import tomllib
 import types
 import typing
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -22,6 +22,21 @@ def field(default: Any = dataclasses.MISSING, **limits: Any) -> Any:
         factory = default if isinstance(default, type) else lambda: type(default)(default)
         return dataclasses.field(default_factory=factory, metadata=limits)
     return dataclasses.field(default=default, metadata=limits)
+
+
+def kind(schema: Any, key: Sequence[str]) -> Any:
+    """The type of the scalar of that name, array places as numbers ("expect", "0", "at_most"); None: no such scalar."""
+    hint: Any = schema
+    for name in (*key, ""):
+        if isinstance(hint, types.UnionType):
+            hint = next(part for part in typing.get_args(hint) if part is not types.NoneType)
+        if dataclasses.is_dataclass(hint):
+            hint = typing.get_type_hints(hint).get(name)
+        elif typing.get_origin(hint) is list and name.isdigit():
+            (hint,) = typing.get_args(hint)
+        elif name:
+            return None
+    return hint
 
 
 class Document:
