@@ -136,6 +136,32 @@ TEST(serial_end, a_short_low_is_a_false_start_and_a_break_is_one_framing_error)
     EXPECT_EQ(l->rx.framing_errors, 1u);
 }
 
+TEST(serial_end, another_baud_is_that_of_the_next_bits)
+{
+    const auto l = std::make_unique<link_t>(9600.0, 9600.0);
+    for (const double baud : {4800.0, 57600.0, 9600.0})
+    {
+        EXPECT_TRUE(emu_serial_end_set_baud(&l->tx, baud));
+        EXPECT_TRUE(emu_serial_end_set_baud(&l->rx, baud));
+        l->got = {};
+        l->sent.clear();
+        l->all_octets();
+        EXPECT_EQ(l->got.octets, l->sent) << baud;
+    }
+    EXPECT_FALSE(emu_serial_end_set_baud(&l->rx, 49.0));
+    EXPECT_EQ(l->rx.baud, 9600.0);
+    // In the middle of a frame: the bits that were heard stay, and the frame ends at the new pace.
+    l->got = {};
+    emu_serial_end_send(&l->tx, 0x0F);
+    const emu_time_t start = l->sched.now;
+    emu_sched_advance(&l->sched,
+                      start + static_cast<emu_time_t>(5.2e12 / 9600.0)); // in bit 4 of the octet, the first 0
+    EXPECT_TRUE(emu_serial_end_set_baud(&l->rx, 9600.0 / 1.05));
+    emu_sched_advance(&l->sched, start + static_cast<emu_time_t>(12e12 / 9600.0));
+    ASSERT_EQ(l->got.octets, std::vector<uint8_t>{0x0F});
+    EXPECT_NEAR(static_cast<double>(l->got.at[0] - start), 9.5625 * 1.05e12 / 9600.0, 1.0);
+}
+
 TEST(serial_end, a_full_queue_is_counted_and_bad_arguments_are_refused)
 {
     const auto l = std::make_unique<link_t>(9600.0, 9600.0);

@@ -12,11 +12,21 @@ static emu_time_t bits_ps(double bits, double baud)
     return (emu_time_t)(bits * 1e12 / baud + 0.5);
 }
 
+static bool tx_level(const emu_serial_end_t* self, unsigned bit)
+{
+    return ((unsigned)self->tx_frame >> bit & 1u) != 0;
+}
+
+/// Put bit tx_bit on the wire, until the next one that differs from it or the end of the frame.
 static void tx_drive(emu_serial_end_t* self, emu_time_t at)
 {
-    const bool one = ((unsigned)self->tx_frame >> self->tx_bit & 1u) != 0;
+    const bool one = tx_level(self, self->tx_bit);
     emu_wire_drive(self->tx, self->tx_driver, one ? EMU_STRONG1 : EMU_STRONG0, at);
-    emu_sched_at(self->sched, &self->tx_event, self->tx_start + bits_ps(self->tx_bit + 1.0, self->baud));
+    do
+    {
+        self->tx_bit++;
+    } while (self->tx_bit < FRAME_BITS && tx_level(self, self->tx_bit) == one);
+    emu_sched_at(self->sched, &self->tx_event, self->tx_start + bits_ps(self->tx_bit, self->baud));
 }
 
 static void tx_begin(emu_serial_end_t* self, emu_time_t at)
@@ -34,7 +44,6 @@ static void tx_begin(emu_serial_end_t* self, emu_time_t at)
 static void tx_bit_end(void* ctx, emu_time_t at)
 {
     emu_serial_end_t* const self = ctx;
-    self->tx_bit++;
     if (self->tx_bit < FRAME_BITS)
     {
         tx_drive(self, at);
@@ -64,15 +73,50 @@ bool emu_serial_end_send(emu_serial_end_t* self, uint8_t octet)
     return true;
 }
 
+static emu_time_t rx_time(const emu_serial_end_t* self, unsigned bit, unsigned sample)
+{
+    return self->rx_start + bits_ps(bit + (SAMPLE_FIRST + sample) / 16.0, self->baud);
+}
+
+static void rx_decide(emu_serial_end_t* self)
+{
+    const bool one = self->rx_votes * 2 > SAMPLES;
+    self->rx_sample = self->rx_votes = 0;
+    if (self->rx_bit == 0 && one)
+    {
+        self->false_starts++;
+        self->rx_busy = false;
+        emu_sched_cancel(self->sched, &self->rx_event);
+        return;
+    }
+    self->rx_bits = (uint16_t)(self->rx_bits | (unsigned)one << self->rx_bit);
+    self->rx_bit++;
+}
+
+/// Take the samples up to instant t, before which the wire has had that level since the last ones. Nobody can see a sample before the
+/// wire changes or the frame ends, so they are not events.
+static void rx_catch_up(emu_serial_end_t* self, bool level, emu_time_t t)
+{
+    while (self->rx_busy && self->rx_bit < FRAME_BITS && rx_time(self, self->rx_bit, self->rx_sample) <= t)
+    {
+        self->rx_votes = (uint8_t)(self->rx_votes + level);
+        self->rx_sample++;
+        if (self->rx_sample == SAMPLES)
+        {
+            rx_decide(self);
+        }
+    }
+}
+
 static void rx_arm(emu_serial_end_t* self)
 {
-    const double bits = self->rx_bit + (SAMPLE_FIRST + self->rx_sample) / 16.0;
-    emu_sched_at(self->sched, &self->rx_event, self->rx_start + bits_ps(bits, self->baud));
+    emu_sched_at(self->sched, &self->rx_event, rx_time(self, FRAME_BITS - 1, SAMPLES - 1));
 }
 
 static void rx_edge(void* ctx, bool level, emu_time_t at)
 {
     emu_serial_end_t* const self = ctx;
+    rx_catch_up(self, !level, at);
     if (self->rx_busy || level)
     {
         return;
@@ -84,38 +128,38 @@ static void rx_edge(void* ctx, bool level, emu_time_t at)
     rx_arm(self);
 }
 
-static void rx_take(void* ctx, emu_time_t at)
+/// At the last sample of the stop bit.
+static void rx_end(void* ctx, emu_time_t at)
 {
     emu_serial_end_t* const self = ctx;
-    self->rx_votes = (uint8_t)(self->rx_votes + self->rx->level);
-    self->rx_sample++;
-    if (self->rx_sample < SAMPLES)
+    rx_catch_up(self, self->rx->level, at);
+    if (!self->rx_busy)
     {
-        rx_arm(self);
         return;
     }
-    const bool one = self->rx_votes * 2 > SAMPLES;
-    self->rx_sample = self->rx_votes = 0;
-    if (self->rx_bit == 0 && one)
-    {
-        self->false_starts++;
-        self->rx_busy = false;
-        return;
-    }
-    self->rx_bits = (uint16_t)(self->rx_bits | (unsigned)one << self->rx_bit);
-    self->rx_bit++;
-    if (self->rx_bit < FRAME_BITS)
-    {
-        rx_arm(self);
-        return;
-    }
+    const bool stop = ((unsigned)self->rx_bits >> (FRAME_BITS - 1) & 1u) != 0;
     self->rx_busy = false;
     self->octets_received++;
-    self->framing_errors += !one;
+    self->framing_errors += !stop;
     if (self->received != NULL)
     {
-        self->received(self->ctx, (uint8_t)(self->rx_bits >> 1 & 0xFFu), one, at);
+        self->received(self->ctx, (uint8_t)(self->rx_bits >> 1 & 0xFFu), stop, at);
     }
+}
+
+bool emu_serial_end_set_baud(emu_serial_end_t* self, double baud)
+{
+    if (!(baud >= EMU_BAUD_MIN && baud <= EMU_BAUD_MAX))
+    {
+        return false;
+    }
+    rx_catch_up(self, self->rx->level, self->sched->now);
+    self->baud = baud;
+    if (self->rx_busy)
+    {
+        rx_arm(self);
+    }
+    return true;
 }
 
 int emu_serial_end_init(emu_serial_end_t* self, emu_sched_t* sched, emu_wire_t* tx, emu_wire_t* rx, double baud,
@@ -129,7 +173,7 @@ int emu_serial_end_init(emu_serial_end_t* self, emu_sched_t* sched, emu_wire_t* 
         .received = received,
         .ctx = ctx,
         .tx_event = {.fire = tx_bit_end, .ctx = self},
-        .rx_event = {.fire = rx_take, .ctx = self},
+        .rx_event = {.fire = rx_end, .ctx = self},
     };
     if (!(baud >= EMU_BAUD_MIN && baud <= EMU_BAUD_MAX) || emu_wire_watch(rx, rx_edge, self) != 0)
     {

@@ -29,7 +29,8 @@ typedef struct emu_serial_end_t
     emu_wire_t* tx; ///< may be NULL: listen only
     emu_wire_t* rx;
     int tx_driver;
-    double baud; ///< own clock; bit n of a frame ends at round((n + 1) * 1e12 / baud) ps
+    double
+        baud; ///< own clock; bit n of a frame ends at round((n + 1) * 1e12 / baud) ps; emu_serial_end_set_baud() changes it
     emu_serial_rx_fn received;
     void* ctx;
     emu_event_t tx_event, rx_event;
@@ -39,7 +40,8 @@ typedef struct emu_serial_end_t
     emu_time_t tx_start, rx_start;
     uint8_t fifo[EMU_SERIAL_FIFO];
     uint32_t fifo_head, fifo_count;
-    uint64_t octets_sent, octets_received, framing_errors, false_starts, overflow;
+    uint64_t octets_sent, octets_received, framing_errors, overflow;
+    uint64_t false_starts; ///< counted when the line moves again, or by the time that the frame would have ended
 } emu_serial_end_t;
 
 /// \return 0; -1 for a baud outside 50 .. 4e6 or no free driver or watcher.
@@ -47,6 +49,8 @@ EMU_API int emu_serial_end_init(emu_serial_end_t* self, emu_sched_t* sched, emu_
                                 emu_serial_rx_fn received, void* ctx);
 /// Queue one octet; it starts at once if the transmitter is free. \return false when the queue is full (counted in overflow).
 EMU_API bool emu_serial_end_send(emu_serial_end_t* self, uint8_t octet);
+/// Another baud, from the next bit of either direction on. \return false for one outside 50 .. 4e6; then nothing is changed.
+EMU_API bool emu_serial_end_set_baud(emu_serial_end_t* self, double baud);
 /// What is on its way, the queue and the counters, and the baud. After emu_sched_state; its wires are their owner's.
 EMU_API void emu_serial_end_state(emu_serial_end_t* self, emu_state_t* io);
 
