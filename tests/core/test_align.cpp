@@ -74,8 +74,9 @@ TEST(align, refuses)
     const ins_real zero[3] = {0, 0, 0};
     const ins_real odd[3] = {1, NOT_A_NUMBER, 0};
     const ins_real huge[3] = {0, std::numeric_limits<ins_real>::max(), 0}; // its square is infinite
+    const ins_real endless[3] = {0, 0, std::numeric_limits<ins_real>::infinity()};
     ins_real q[4] = {7, 7, 7, 7};
-    for (const ins_real* bad : {nearly_x, zero, odd, huge})
+    for (const ins_real* bad : {nearly_x, zero, odd, huge, endless})
     {
         EXPECT_EQ(ins_align_triad(x, bad, x, y, q), INS_E_RANGE);
         EXPECT_EQ(ins_align_triad(bad, x, x, y, q), INS_E_RANGE);

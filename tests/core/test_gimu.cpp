@@ -165,6 +165,17 @@ TEST(vector_gimu, scaling)
                 drift["angle_deg_60s"].get<double>(), 1e-5);
 }
 
+TEST(gimu, each_channel_has_its_null_and_its_scale)
+{
+    ins_gimu_scale_t scale = {{1000, 2000, 3000, 1500, 2500, 3500}, {2, 3, 5}, 7};
+    const uint16_t raw[6] = {1001, 2002, 3004, 1508, 2516, 3532};
+    ins_real dtheta[3];
+    ins_real dv[3];
+    ins_gimu_increments(&scale, raw, INS_C(0.5), dtheta, dv);
+    EXPECT_EQ(json(vec(dtheta)), json(Vec{2 * 1 * 0.5, 3 * 2 * 0.5, 5 * 4 * 0.5}));
+    EXPECT_EQ(json(vec(dv)), json(Vec{7 * 8 * 0.5, 7 * 16 * 0.5, 7 * 32 * 0.5}));
+}
+
 TEST(gimu, order_of_the_coordinates)
 {
     struct Case

@@ -90,24 +90,30 @@ TEST(gps_axis, model_is_continuous_over_dt_by_tau)
 
 TEST(gps_axis, current_statistical_model_follows_the_mean)
 {
-    ins_gps_axis_config_t cfg = {1, 20, 100, 1, 5, 9, 0, 10};
     const ins_real var[4] = {1, 1, 1, 1};
-    ins_gps_axis_t f;
-    ASSERT_EQ(ins_gps_axis_init(&f, &cfg, var), INS_OK);
-    f.x[1] = 3;
-    f.x[2] = 2;
-    const ins_real before = f.P[10];
-    ins_gps_axis_predict(&f);
-    EXPECT_NEAR(static_cast<double>(f.x[0]), 3 + 0.5 * 2, 1e-5) << "a constant acceleration is carried on";
-    EXPECT_NEAR(static_cast<double>(f.x[1]), 3 + 2, 1e-5);
-    EXPECT_NEAR(static_cast<double>(f.x[2]), 2, 1e-6);
-    const double phi = std::exp(-1.0 / 20);
-    const double added = (4 - PI) / PI * 8 * 8 * (1 - phi * phi);
-    EXPECT_NEAR(static_cast<double>(f.P[10]), static_cast<double>(before) * phi * phi + added, 1e-5);
-    f.x[2] = 11; // beyond the limit there is no room: no noise
-    const ins_real variance = f.P[10];
-    ins_gps_axis_predict(&f);
-    EXPECT_NEAR(static_cast<double>(f.P[10]), static_cast<double>(variance) * phi * phi, 1e-5);
+    for (const double tau : {20.0, 0.5}) // dt/tau below and above the end of the series
+    {
+        const ins_gps_axis_config_t cfg = {1, static_cast<ins_real>(tau), 100, 1, 5, 9, 0, 10};
+        ins_gps_axis_t f;
+        ASSERT_EQ(ins_gps_axis_init(&f, &cfg, var), INS_OK);
+        f.x[1] = 3;
+        f.x[2] = 2;
+        const ins_real before = f.P[10];
+        ins_gps_axis_predict(&f);
+        EXPECT_NEAR(static_cast<double>(f.x[0]), 3 + 0.5 * 2, 1e-5) << "a constant acceleration is carried on";
+        EXPECT_NEAR(static_cast<double>(f.x[1]), 3 + 2, 1e-5);
+        EXPECT_NEAR(static_cast<double>(f.x[2]), 2, 1e-6);
+        const double phi = std::exp(-1 / tau);
+        const double added = (4 - PI) / PI * 8 * 8 * (1 - phi * phi);
+        EXPECT_NEAR(static_cast<double>(f.P[10]), static_cast<double>(before) * phi * phi + added, 1e-5);
+        for (const double beyond : {10.5, -11.5}) // there is no room: no noise
+        {
+            f.x[2] = static_cast<ins_real>(beyond);
+            const ins_real variance = f.P[10];
+            ins_gps_axis_predict(&f);
+            EXPECT_NEAR(static_cast<double>(f.P[10]), static_cast<double>(variance) * phi * phi, 1e-5) << beyond;
+        }
+    }
 }
 
 TEST(gps_axis, refusals_and_gate)
@@ -131,6 +137,22 @@ TEST(gps_axis, refusals_and_gate)
             EXPECT_EQ(ins_gps_axis_init(&f, &cfg, var), INS_E_RANGE);
         }
     }
+    for (const auto member : {&ins_gps_axis_config_t::dt, &ins_gps_axis_config_t::tau_acceleration,
+                              &ins_gps_axis_config_t::tau_fix, &ins_gps_axis_config_t::r})
+    {
+        ins_gps_axis_config_t cfg = good;
+        cfg.*member = 0;
+        EXPECT_EQ(ins_gps_axis_init(&f, &cfg, var), INS_E_RANGE);
+    }
+    for (const auto member : {&ins_gps_axis_config_t::sigma_acceleration, &ins_gps_axis_config_t::sigma_fix,
+                              &ins_gps_axis_config_t::acceleration_max, &ins_gps_axis_config_t::gate})
+    {
+        ins_gps_axis_config_t cfg = good;
+        cfg.*member = 0;
+        EXPECT_EQ(ins_gps_axis_init(&f, &cfg, var), INS_OK);
+    }
+    const ins_real known[4] = {0, 0, 0, 0};
+    EXPECT_EQ(ins_gps_axis_init(&f, &good, known), INS_OK);
     for (const double tau : {91.0, 100.0, 109.0})
     {
         ins_gps_axis_config_t cfg = good;

@@ -1,5 +1,5 @@
 /// \file   test_gps_dr.cpp
-/// \brief  Dead reckoning, vehicle filters, fusion, switch: the reference runs, limits, refusals.
+/// \brief  Dead reckoning and vehicle filters: the reference runs, limits, refusals.
 /// SPDX-License-Identifier: MIT
 #include "gps_dr_file.h"
 using namespace core_test;
@@ -42,6 +42,20 @@ TEST(dead_reckoning, a_circle_closes_at_any_step)
     EXPECT_EQ(pose[0], 1);
     pose[2] = 2000;
     EXPECT_EQ(ins_dead_reckoning_step(pose, 1, 1), INS_E_RANGE);
+}
+
+TEST(dead_reckoning, the_chord_of_a_small_turn_is_right_to_rounding)
+{
+    for (const double turn : {2e-3, -1.7e-3, 1e-3, 0.0}) // up to the end of the series
+    {
+        const auto t = static_cast<ins_real>(turn);
+        ins_real pose[3] = {0, 0, -t / 2}; // the chord points north
+        ASSERT_EQ(ins_dead_reckoning_step(pose, 1, t), INS_OK);
+        const double half = static_cast<double>(t) / 2;
+        const double chord = half != 0 ? std::sin(half) / half : 1;
+        EXPECT_EQ(pose[0], 0);
+        EXPECT_NEAR(static_cast<double>(pose[1]), chord, INS_TOL(1e-14, 3e-8)) << turn; // float: half an ulp
+    }
 }
 
 TEST(dead_reckoning, sine_and_cosine_all_around)
@@ -147,15 +161,30 @@ TEST(dr_ekf, standing_still_uses_nothing_and_bad_input_is_refused)
             EXPECT_EQ(ins_dr_ekf_init(&f, &cfg, x0, var), INS_E_RANGE);
         }
     }
+    for (const auto member : {&ins_dr_ekf_config_t::dt, &ins_dr_ekf_config_t::r_rate, &ins_dr_ekf_config_t::r_distance,
+                              &ins_dr_ekf_config_t::v_zero})
+    {
+        ins_dr_ekf_config_t cfg = good;
+        cfg.*member = 0;
+        EXPECT_EQ(ins_dr_ekf_init(&f, &cfg, x0, var), INS_E_RANGE);
+    }
     for (size_t i = 0; i < 2; i++)
     {
         ins_dr_ekf_config_t cfg = good;
-        cfg.tau[i] = 0;
-        EXPECT_EQ(ins_dr_ekf_init(&f, &cfg, x0, var), INS_E_RANGE);
+        for (const ins_real tau : {INS_C(0.0), INS_C(-5.0)})
+        {
+            cfg.tau[i] = tau;
+            EXPECT_EQ(ins_dr_ekf_init(&f, &cfg, x0, var), INS_E_RANGE);
+        }
         cfg = good;
         cfg.sigma[i] = -1;
         EXPECT_EQ(ins_dr_ekf_init(&f, &cfg, x0, var), INS_E_RANGE);
     }
+    ins_dr_ekf_config_t least = good; // at equality all these are taken
+    least.sigma[0] = least.sigma[1] = least.gate = 0;
+    least.v_min = least.v_zero;
+    const ins_real known[6] = {0, 0, 0, 0, 0, 0};
+    EXPECT_EQ(ins_dr_ekf_init(&f, &least, x0, known), INS_OK);
     const ins_real bad_x[6] = {0, NOT_A_NUMBER, 0, 0, 0, 0};
     const ins_real bad_var[6] = {1, 1, 1, 1, 1, -1};
     EXPECT_EQ(ins_dr_ekf_init(&f, &good, bad_x, var), INS_E_RANGE);
@@ -298,114 +327,4 @@ TEST(unicycle, what_the_filter_refuses_leaves_it_as_it_was)
     const ins_real fast[6] = {0, 0, 0, std::numeric_limits<ins_real>::max(), 0, 1}; // its square is infinite
     ASSERT_EQ(ins_unicycle_init(&f, &no_gate, fast, var), INS_OK);
     EXPECT_TRUE(refused(f, still)) << "the yaw rate is not used either";
-}
-
-TEST(vector_gps_dr, fusion_and_information_sharing)
-{
-    Worst worst;
-    const json cases = load("gps_dr.json")["fusion"];
-    ASSERT_FALSE(cases.empty());
-    for (const json& c : cases)
-    {
-        const auto n = static_cast<unsigned>(c["x_fused"].size());
-        std::vector<ins_real> info(n * n, 9);
-        std::vector<ins_real> y(n, 9);
-        std::vector<ins_real> x(n);
-        std::vector<ins_real> P(n * n);
-        std::vector<ins_real> work(n * n);
-        ins_fusion_clear(n, info.data(), y.data());
-        EXPECT_EQ(ins_fusion_solve(n, info.data(), y.data(), x.data(), P.data()), INS_E_RANGE) << "nothing is known";
-        for (size_t i = 0; i < c["x"].size(); i++)
-        {
-            ASSERT_EQ(ins_fusion_add(n, info.data(), y.data(), numbers(c["x"][i]).data(), numbers(c["P"][i]).data(),
-                                     work.data()),
-                      INS_OK);
-        }
-        ASSERT_EQ(ins_fusion_solve(n, info.data(), y.data(), x.data(), P.data()), INS_OK);
-        compare(worst, x.data(), c["x_fused"], "x");
-        compare(worst, P.data(), c["P_fused"], "P");
-        for (size_t i = 0; i < c["beta"].size(); i++)
-        {
-            ASSERT_EQ(ins_fusion_share(n, P.data(), number(c["beta"][i]), work.data()), INS_OK);
-            compare(worst, work.data(), c["P_local_reset"][i], "P shared");
-        }
-        const auto before = info;
-        std::vector<ins_real> unknown(n * n, 0);
-        for (unsigned i = 0; i < n; i++)
-        {
-            unknown[(n + 1) * i] = std::numeric_limits<ins_real>::infinity();
-        }
-        for (const auto& bad : {std::vector<ins_real>(n * n, -1), unknown})
-        {
-            EXPECT_EQ(ins_fusion_add(n, info.data(), y.data(), x.data(), bad.data(), work.data()), INS_E_RANGE);
-            EXPECT_EQ(info, before);
-        }
-        for (const ins_real beta : {INS_C(0.0), INS_C(1.5), NOT_A_NUMBER})
-        {
-            EXPECT_EQ(ins_fusion_share(n, P.data(), beta, work.data()), INS_E_RANGE);
-        }
-    }
-    expect_within(worst, TOL_STEP, "fusion");
-}
-
-TEST(vector_gps_dr, switch_with_hysteresis)
-{
-    const json s = load("gps_dr.json")["switch"];
-    const ins_switch_config_t cfg = {number(s["params"]["hmax"]), number(s["params"]["gate"]),
-                                     s["params"]["smin"].get<uint_least8_t>(),
-                                     s["params"]["n_back"].get<uint_least8_t>()};
-    EXPECT_EQ(cfg.back, INS_SWITCH_BACK_GOOD);
-    ins_switch_t good;
-    ins_switch_t paper;
-    ins_switch_config_t at_once = cfg;
-    at_once.back = INS_SWITCH_BACK_PAPER;
-    ASSERT_EQ(ins_switch_init(&good, &cfg), INS_OK);
-    ASSERT_EQ(ins_switch_init(&paper, &at_once), INS_OK);
-    int changes_good = 0;
-    int changes_paper = 0;
-    for (size_t k = 0; k < s["epochs"].size(); k++)
-    {
-        const json& e = s["epochs"][k];
-        const ins_real nis = e["nis"].is_null() ? 0 : number(e["nis"]);
-        const int before_good = good.mode;
-        const int before_paper = paper.mode;
-        const int mode =
-            ins_switch_epoch(&good, e["valid"].get<bool>(), e["sats"].get<unsigned>(), number(e["hdop"]), nis);
-        EXPECT_EQ(mode == INS_SWITCH_GPS ? "GPS" : "DR", s["expected"][k]["mode"].get<std::string>()) << k;
-        EXPECT_EQ(good.good != 0, s["expected"][k]["good"].get<bool>()) << k;
-        const int m =
-            ins_switch_epoch(&paper, e["valid"].get<bool>(), e["sats"].get<unsigned>(), number(e["hdop"]), nis);
-        EXPECT_EQ(m == INS_SWITCH_GPS, s["expected"][k]["good"].get<bool>()) << "the paper's follows each epoch " << k;
-        changes_good += mode != before_good;
-        changes_paper += m != before_paper;
-    }
-    std::printf("[ figure   ] changes of mode in %zu epochs: %d with hysteresis, %d as printed\n", s["epochs"].size(),
-                changes_good, changes_paper);
-    EXPECT_LT(changes_good, changes_paper);
-}
-
-TEST(gps_dr_switch, limits_and_refusals)
-{
-    const ins_switch_config_t cfg = {4, INS_KALMAN_GATE2_99, 4, 1};
-    ins_switch_t s;
-    ASSERT_EQ(ins_switch_init(&s, &cfg), INS_OK);
-    EXPECT_EQ(ins_switch_epoch(&s, 1, 4, 4, INS_KALMAN_GATE2_99), INS_SWITCH_GPS) << "the limits are good";
-    EXPECT_EQ(ins_switch_epoch(&s, 0, 4, 4, 0), INS_SWITCH_DR);
-    EXPECT_EQ(ins_switch_epoch(&s, 1, 3, 4, 0), INS_SWITCH_DR);
-    EXPECT_EQ(ins_switch_epoch(&s, 1, 4, NOT_A_NUMBER, 0), INS_SWITCH_DR);
-    EXPECT_EQ(ins_switch_epoch(&s, 1, 4, 1, NOT_A_NUMBER), INS_SWITCH_DR);
-    EXPECT_EQ(ins_switch_epoch(&s, 1, 4, 1, 10), INS_SWITCH_DR);
-    for (int k = 0; k < 300; k++) // more than a counter of 8 bits holds
-    {
-        EXPECT_EQ(ins_switch_epoch(&s, 1, 4, 1, 0), INS_SWITCH_GPS);
-    }
-    const ins_switch_config_t no_gate = {4, 0, 4, 1};
-    ASSERT_EQ(ins_switch_init(&s, &no_gate), INS_OK);
-    EXPECT_EQ(ins_switch_epoch(&s, 1, 4, 1, 1000), INS_SWITCH_GPS);
-    for (const ins_switch_config_t& bad :
-         {ins_switch_config_t{4, 1, 4, 0}, ins_switch_config_t{0, 1, 4, 1}, ins_switch_config_t{NOT_A_NUMBER, 1, 4, 1},
-          ins_switch_config_t{4, -1, 4, 1}})
-    {
-        EXPECT_EQ(ins_switch_init(&s, &bad), INS_E_RANGE);
-    }
 }

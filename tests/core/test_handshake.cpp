@@ -211,6 +211,15 @@ TEST(handshake, a_request_again_is_not_eaten_as_the_first_octet)
     ins_hs_host_rx(&host, INS_HS_REQUEST, 101 + REPLY_TIMEOUT, &reply);
     EXPECT_EQ(reply, -1);
     EXPECT_EQ(host.count, 1);
+    // Any other octet that late is data: the block is late, and nothing was lost.
+    for (const unsigned octet : {0u, INS_HS_REQUEST - 1u, INS_HS_REQUEST + 1u, 0xFFu})
+    {
+        ASSERT_EQ(ins_hs_host_init(&host, &cfg), INS_OK);
+        ins_hs_host_rx(&host, INS_HS_REQUEST, 100, &reply);
+        ins_hs_host_rx(&host, static_cast<ins_octet_t>(octet), 100 + REPLY_TIMEOUT, &reply);
+        EXPECT_EQ(host.count, 1) << octet;
+        EXPECT_EQ(host.stray + host.timeouts, 0u) << octet;
+    }
 }
 
 TEST(handshake, a_host_that_starts_in_the_middle_of_a_frame_gets_the_next_block)

@@ -308,6 +308,18 @@ TEST(kalman, factors_multiply_back_and_indefinite_is_refused)
     EXPECT_EQ(ins_ud_factor(2, known.data(), UD.data(), work.data()), INS_OK);
     EXPECT_EQ(UD, (Reals{3, 0, 0}));
     EXPECT_EQ(ins_ud_factor(2, zero.data(), UD.data(), work.data()), INS_OK);
+    // Element 1 is element 2's but for a rounding in its product with element 0, or with 1 of 4: no variance is left, and no factor.
+    const auto r = static_cast<ins_real>(INS_TOL(0x1p-30, 0x1p-13));
+    const Reals rounded = {2, 1 + r, 1, 1 + r, 1, 1, 1, 1, 1};
+    Reals UD3(INS_UD_SIZE(3));
+    Reals work3(9);
+    EXPECT_EQ(ins_ud_factor(3, rounded.data(), UD3.data(), work3.data()), INS_OK);
+    EXPECT_EQ(UD3, (Reals{1, 0, 0, 1, 1, 1}));
+    const Reals beside = {1, 0, 0, 0, 0, 2, 1 + r, 1, 0, 1 + r, 1, 1, 0, 1, 1, 1};
+    Reals UD4(INS_UD_SIZE(4));
+    Reals work4(16);
+    EXPECT_EQ(ins_ud_factor(4, beside.data(), UD4.data(), work4.data()), INS_OK);
+    EXPECT_EQ(UD4, (Reals{1, 0, 1, 0, 0, 0, 0, 1, 1, 1}));
     const ins_real nan = std::numeric_limits<ins_real>::quiet_NaN();
     const ins_real inf = std::numeric_limits<ins_real>::infinity();
     for (const Reals& bad : {Reals{1, 2, 2, 1}, Reals{-1, 0, 0, 1}, Reals{1, 0, 0, -1}, Reals{1, 1, 1, 0},

@@ -333,6 +333,40 @@ TEST(link, a_lost_answer_makes_a_duplicate_and_gaps_are_counted)
     EXPECT_TRUE(link.extended.back());
 }
 
+TEST(link, a_request_again_counts_one_time_out)
+{
+    // 44 was lost and nobody called tick.
+    const ins_hs_config_t cfg = config(false, 3);
+    ins_link_host_t host;
+    ASSERT_EQ(ins_link_host_init(&host, &cfg), INS_OK);
+    int16_t reply;
+    for (unsigned asked = 0; asked < 3; asked++)
+    {
+        EXPECT_EQ(ins_link_host_rx(&host, INS_LINK_REQUEST, static_cast<uint16_t>(asked * REPLY_TIMEOUT), &reply),
+                  INS_HS_NOTHING);
+        EXPECT_EQ(reply, INS_LINK_READY);
+        EXPECT_EQ(host.hs.timeouts, asked);
+    }
+}
+
+/// After a plain block without a number the next frame's is neither that of a duplicate nor after a gap; with one it counts on.
+TEST(link, the_number_after_a_plain_block)
+{
+    for (const bool seq : {false, true})
+    {
+        Pair link(true, true, seq);
+        link.transfer(5);
+        link.new_board = false;
+        link.transfer(seq ? 6 : 5);
+        ASSERT_EQ(link.extended, (std::vector<bool>{true, false})) << seq;
+        link.new_board = true;
+        link.transfer(seq ? 9 : 5);
+        EXPECT_EQ(link.extended, (std::vector<bool>{true, false, true})) << seq;
+        EXPECT_EQ(link.host.hs.duplicates, 0u) << seq;
+        EXPECT_EQ(link.host.hs.gap, seq ? 2 : 0) << seq;
+    }
+}
+
 TEST(link, bad_lines)
 {
     const unsigned seed = 5544;

@@ -115,6 +115,16 @@ TEST(nmea, empty_fields)
     ASSERT_EQ(read("GPRMC,,V,,,,,,,,,,N", &f), INS_NMEA_RMC);
     EXPECT_EQ(f.has, 0);
     EXPECT_EQ(f.valid, 0);
+    for (const char* const sides : {",N,,E", ",S,,W", ",S,,E", ",,,"}) // hemispheres without digits
+    {
+        ASSERT_EQ(read("GPGGA,," + std::string(sides) + ",0,,,,M,,M,,", &f), INS_NMEA_GGA) << sides;
+        EXPECT_EQ(f.has, 0);
+    }
+    EXPECT_EQ(read("GPGGA,,,X,,E,0,,,,M,,M,,", &f), INS_NMEA_NOTHING);
+    EXPECT_EQ(read("GPGGA,,,N,,N,0,,,,M,,M,,", &f), INS_NMEA_NOTHING);
+    ASSERT_EQ(read("GPVTG,054.7,T,,M,,N,,K,A", &f), INS_NMEA_VTG);
+    EXPECT_EQ(f.valid, 0) << "no speed";
+    EXPECT_EQ(f.has, INS_NMEA_COURSE);
     ASSERT_EQ(read("GPRMC,120000,A,,N,,E,,,010170,,,A", &f), INS_NMEA_RMC);
     EXPECT_EQ(f.has, INS_NMEA_TIME | INS_NMEA_DATE);
 }

@@ -3,6 +3,7 @@
 /// SPDX-License-Identifier: MIT
 #include "core_test.h"
 #include <limits>
+#include <random>
 using namespace core_test;
 
 namespace
@@ -137,6 +138,44 @@ TEST(vector_calib_linear, maps_from_the_readings)
     expect_within(worst, INS_TOL(1e-12, 2e-6), "linear map");
 }
 
+TEST(linfit, residual_is_that_of_the_map)
+{
+    const unsigned seed = 34;
+    std::printf("seed %u\n", seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    ins_linfit_t fit;
+    ASSERT_EQ(ins_linfit_init(&fit, 2), INS_OK);
+    std::vector<std::array<ins_real, 5>> rows; // f_b, readings
+    for (int k = 0; k < 40; k++)
+    {
+        std::array<ins_real, 5> row;
+        for (ins_real& x : row)
+        {
+            x = static_cast<ins_real>(uniform(random));
+        }
+        ASSERT_EQ(ins_linfit_add(&fit, row.data(), row.data() + 3), INS_OK);
+        rows.push_back(row);
+    }
+    for (unsigned j = 0; j < 2; j++)
+    {
+        ins_real map[4];
+        ASSERT_EQ(ins_linfit_solve(&fit, j, map), INS_OK);
+        double sum = 0;
+        for (const auto& row : rows)
+        {
+            double rest = static_cast<double>(row[3 + j]) - static_cast<double>(map[0]);
+            for (size_t i = 0; i < 3; i++)
+            {
+                rest -= static_cast<double>(map[i + 1]) * static_cast<double>(row[i]);
+            }
+            sum += rest * rest;
+        }
+        EXPECT_NEAR(static_cast<double>(fit.residual2[j]), sum, sum * INS_TOL(1e-13, 1e-5)) << j;
+        EXPECT_GT(sum, 1) << "noise alone";
+    }
+}
+
 TEST(sixacc, any_geometry_scale_and_misalignment)
 {
     const auto accels = eight();
@@ -231,8 +270,19 @@ TEST(sixacc, refuses)
     EXPECT_EQ(ins_sixacc_init(&s, 6, twice, INS_C(0.01)), INS_E_RANGE);
     accels[3].bias = NOT_A_NUMBER;
     EXPECT_EQ(ins_sixacc_init(&s, 8, accels.data(), INS_C(0.01)), INS_E_RANGE);
+    using limits = std::numeric_limits<ins_real>;
+    for (const ins_real bad :
+         {NOT_A_NUMBER, limits::infinity(), -limits::infinity(), limits::max()}) // or its square is infinite
+    {
+        for (size_t i = 0; i < 3; i++)
+        {
+            accels = eight();
+            accels[3].axis[i] = bad;
+            EXPECT_EQ(ins_sixacc_init(&s, 8, accels.data(), INS_C(0.01)), INS_E_RANGE);
+        }
+    }
     accels = eight();
-    accels[3].axis[1] = NOT_A_NUMBER;
+    accels[3].r[1] = limits::infinity();
     EXPECT_EQ(ins_sixacc_init(&s, 8, accels.data(), INS_C(0.01)), INS_E_RANGE);
     ASSERT_EQ(ins_sixacc_init(&s, 6, together, INS_C(0.01)), INS_OK);
     ins_increment_t x;

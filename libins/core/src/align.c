@@ -55,11 +55,11 @@ ins_status_t ins_mean_get(const ins_mean_t* self, ins_real mean[3], ins_real err
     return INS_OK;
 }
 
-/// \return 0 if it has no length, or is not finite.
+/// \return 0 if it has no length, or one that is not a number. One too long for ins_real gives zeros or no numbers.
 static int unit(const ins_real v[3], ins_real out[3])
 {
     const ins_real n2 = ins_vec_dot(v, v);
-    if (!(n2 >= LENGTH2_MIN) || !(n2 - n2 == 0))
+    if (!(n2 >= LENGTH2_MIN))
     {
         return 0;
     }

@@ -44,7 +44,7 @@ static void solve(ins_real L[6][6], ins_real x[6])
     }
 }
 
-/// Cholesky in place. \return 0 if a column is not independent of those before, or not a number.
+/// Cholesky in place. \return 0 if a column is not independent of those before, or not finite: infinity is not above its share.
 static int factor(ins_real N[6][6])
 {
     for (int i = 0; i < 6; i++)
@@ -59,7 +59,7 @@ static int factor(ins_real N[6][6])
             }
             N[i][k] = k < i ? sum / N[k][k] : sum;
         }
-        if (!(N[i][i] > PIVOT_MIN * square) || !(N[i][i] - N[i][i] == 0))
+        if (!(N[i][i] > PIVOT_MIN * square))
         {
             return 0;
         }
