@@ -318,8 +318,8 @@ void integers()
                 q32[i] = std::ldexp(static_cast<double>(narrow.q_nb[i]), -30);
                 q64[i] = std::ldexp(static_cast<double>(wide.q_nb[i]), -62);
             }
-            worst[0] = std::max(worst[0], angle_between(q32, quat(exact.q_nb)));
-            worst[1] = std::max(worst[1], angle_between(q64, quat(exact.q_nb)));
+            worst[0] = larger(worst[0], angle_between(q32, quat(exact.q_nb)));
+            worst[1] = larger(worst[1], angle_between(q64, quat(exact.q_nb)));
         }
         point("q31_size", "32-bit state", largest, worst[0]);
         point("q31_size", "64-bit state", largest, worst[1]);

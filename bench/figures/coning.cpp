@@ -148,11 +148,11 @@ void rotation_vector()
                 square += static_cast<long double>(x) * x;
             }
             const long double size = std::sqrt(square);
-            worst = std::max(worst, static_cast<double>(std::fabs(q[0] - std::cos(size / 2))));
+            worst = larger(worst, static_cast<double>(std::fabs(q[0] - std::cos(size / 2))));
             for (size_t axis = 0; axis < 3; axis++)
             {
                 const long double want = phi[axis] / size * std::sin(size / 2);
-                worst = std::max(worst, static_cast<double>(std::fabs(q[axis + 1] - want)));
+                worst = larger(worst, static_cast<double>(std::fabs(q[axis + 1] - want)));
             }
         }
         point("rotvec", type, angle, worst);
@@ -180,8 +180,8 @@ void pole()
             ins_real euler[3];
             ins_quat_to_euler(q, euler);
             const double sine = std::min(1.0, 2 * (q[0] * q[2] - q[1] * q[3]));
-            worst[0] = std::max(worst[0], static_cast<double>(std::fabs(euler[1] - pitch)));
-            worst[1] = std::max(worst[1], static_cast<double>(std::fabs(std::asin(sine) - pitch)));
+            worst[0] = larger(worst[0], static_cast<double>(std::fabs(euler[1] - pitch)));
+            worst[1] = larger(worst[1], static_cast<double>(std::fabs(std::asin(sine) - pitch)));
         }
         point("euler_pole", "library", static_cast<double>(off), worst[0]);
         point("euler_pole", "arc sine", static_cast<double>(off), worst[1]);

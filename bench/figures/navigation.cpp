@@ -39,8 +39,8 @@ void ellipsoid()
             ins_real back[3];
             EXPECT_EQ(ins_geodesy_to_ecef(&ins_wgs84, llh.data(), xyz), INS_OK);
             EXPECT_EQ(ins_geodesy_from_ecef(&ins_wgs84, xyz, back), INS_OK);
-            worst = std::max(worst, std::fabs(static_cast<double>(back[0] - llh[0])) * 6378137);
-            worst = std::max(worst, std::fabs(static_cast<double>(back[2] - llh[2])));
+            worst = larger(worst, std::fabs(static_cast<double>(back[0] - llh[0])) * 6378137);
+            worst = larger(worst, std::fabs(static_cast<double>(back[2] - llh[2])));
         }
         point("geodesy_height", TYPE, height, worst);
     }
@@ -80,7 +80,7 @@ void gravity()
                                   ins_earth_gravity(sin_lat, 0) + gradient * height};
             for (int k = 0; k < 2; k++)
             {
-                worst[k] = std::max(worst[k], static_cast<double>(std::fabs(got[k] - want)));
+                worst[k] = larger(worst[k], static_cast<double>(std::fabs(got[k] - want)));
             }
         }
         point("gravity_height", "library, second order", height, worst[0]);
@@ -140,11 +140,11 @@ void grid()
             const auto shift = [&] { return 6378137 * std::hypot(back[0] - phi, (back[1] - lon) * std::cos(phi)); };
             EXPECT_EQ(ins_tm_forward(&tm, phi, lon, en, nullptr), INS_OK);
             EXPECT_EQ(ins_tm_inverse(&tm, en, back), INS_OK);
-            worst[0] = std::max(worst[0], shift());
+            worst[0] = larger(worst[0], shift());
             EXPECT_EQ(ins_tm_thesis_forward(&tm, phi, lon, same), INS_OK);
-            worst[1] = std::max(worst[1], std::hypot(same[0] - en[0], same[1] - en[1]));
+            worst[1] = larger(worst[1], std::hypot(same[0] - en[0], same[1] - en[1]));
             EXPECT_EQ(ins_tm_thesis_inverse(&tm, en, back), INS_OK);
-            worst[2] = std::max(worst[2], shift());
+            worst[2] = larger(worst[2], shift());
         }
         point("tm_distance", "Krueger, there and back", dlon, worst[0]);
         point("tm_distance", "thesis forward", dlon, worst[1]);
@@ -184,7 +184,7 @@ void six_accelerometers()
             EXPECT_EQ(ins_sixacc_step(&s, readings, &x), k ? INS_OK : INS_S_START);
             for (size_t i = 0; i < 3; i++)
             {
-                worst = std::max(worst, std::fabs(s.w_ib_b[i] - w[i]));
+                worst = larger(worst, std::fabs(s.w_ib_b[i] - w[i]));
                 turned[i] += x.theta_b[i];
             }
         }

@@ -1,9 +1,8 @@
 /// \file   test_cpp.cpp
 /// \brief  The C++ headers against the reference files whose formula they wrap. SI, rad.
 /// SPDX-License-Identifier: MIT
-#include "../core/core_test.h"
-#include "ins/ins.hpp"
-using namespace core_test;
+#include "cpp_test.hpp"
+using namespace cpp_test;
 
 namespace
 {
@@ -14,68 +13,7 @@ const double TOL_REL = INS_TOL(1e-12, 1e-6);
 const double TOL_ECEF_M = INS_TOL(1e-8, 6.0);
 const double TOL_ANGLE_RAD = INS_TOL(1e-13, 5e-7);
 const double TOL_TM_M = INS_TOL(1e-6, 2.0);
-const double TOL_PVA = INS_TOL(1e-12, 3e-5);
-const double TOL_FUSION = INS_TOL(1e-12, 2e-5);
-using Columns = Eigen::Matrix<ins_real, 3, Eigen::Dynamic>;
-using Attitudes = Eigen::Matrix<ins_real, 4, Eigen::Dynamic>;
-
-ins_real number(const json& x)
-{
-    return static_cast<ins_real>(x.get<double>());
-}
-
-ins::Vector3 vector3(const json& x)
-{
-    return {number(x[0]), number(x[1]), number(x[2])};
-}
-
-ins::Quaternion quaternion(const json& x)
-{
-    return {number(x[0]), number(x[1]), number(x[2]), number(x[3])};
-}
-
-Columns columns(const json& list, size_t from, size_t count)
-{
-    Columns c(3, static_cast<Eigen::Index>(count));
-    for (size_t k = 0; k < count; k++)
-    {
-        c.col(static_cast<Eigen::Index>(k)) = vector3(list[from + k]);
-    }
-    return c;
-}
-
-template <int N> ins::Square<N> square(const json& x)
-{
-    ins::Square<N> m;
-    for (int i = 0; i < N; i++)
-    {
-        for (int j = 0; j < N; j++)
-        {
-            m(i, j) = number(x[static_cast<size_t>(i)][static_cast<size_t>(j)]);
-        }
-    }
-    return m;
-}
-
-void take(Worst& worst, const ins::Quaternion& got, const json& want, const std::string& place)
-{
-    const double sign = got.dot(quaternion(want)) < 0 ? -1 : 1;
-    const ins_real wxyz[] = {got.w(), got.x(), got.y(), got.z()};
-    for (size_t i = 0; i < 4; i++)
-    {
-        worst.take(sign * static_cast<double>(wxyz[i]), want[i], 1, place);
-    }
-}
-
-template <class Derived>
-void take(Worst& worst, const Eigen::MatrixBase<Derived>& got, const json& want, double scale, const std::string& place)
-{
-    ASSERT_EQ(static_cast<size_t>(got.size()), want.size()) << place;
-    for (Eigen::Index i = 0; i < got.size(); i++)
-    {
-        worst.take(static_cast<double>(got(i)), want[static_cast<size_t>(i)], scale, place);
-    }
-}
+const double TOL_FIT = INS_TOL(1e-7, 2e-5);
 } // namespace
 
 TEST(cpp, abi_and_texts)
@@ -119,6 +57,16 @@ TEST(cpp_vector_coning, rotation_vector_and_attitude)
             ASSERT_EQ(done.value, incs.cols());
             ASSERT_EQ(done.status, ins::Status::Ok);
             take(quats, Eigen::Map<const ins::Quaternion>(q.col(incs.cols() - 1).data()), c["q_final"][f.name], f.name);
+            if (f.form == INS_CONING_HIST2_OPT)
+            {
+                ins::Hist2 lean;
+                Attitudes same(4, incs.cols());
+                ASSERT_EQ(lean.init(quaternion(c["q_true"][0])), ins::Status::Ok);
+                ASSERT_TRUE(lean.run(columns(c["pre"], c["pre"].size() - 3, 3), same.leftCols(3)));
+                std::copy_n(start.q_nb, 4, lean.raw.q_nb);
+                ASSERT_EQ(lean.run(incs, same).value, incs.cols());
+                EXPECT_EQ(same, q) << "the general form's bits";
+            }
         }
     }
     expect_within(phi, TOL_REL, "coning phi, relative");
@@ -152,7 +100,7 @@ TEST(cpp_vector_attitude_motion, sampled_rates_in_one_call)
         ASSERT_EQ(f.init(INS_FITER_HIST2, 1, quaternion(c["q_true"][0])), ins::Status::Ok);
         for (const json& before : c["pre"])
         {
-            ASSERT_TRUE(ins::ok(t.step(vector3(before))) && ins::ok(f.step(vector3(before))));
+            ASSERT_TRUE(ins::ok(t.step(vector<3>(before))) && ins::ok(f.step(vector<3>(before))));
         }
         std::copy_n(start.q_nb, 4, t.raw.q_nb);
         std::copy_n(start.q_nb, 4, f.raw.q_nb);
@@ -163,8 +111,8 @@ TEST(cpp_vector_attitude_motion, sampled_rates_in_one_call)
         ins::Quaternion chained;
         for (const json& x : c["incs"])
         {
-            ASSERT_TRUE(ins::ok(t.step(vector3(x))) && ins::ok(f.step(vector3(x))));
-            const auto reused = r.step(vector3(x));
+            ASSERT_TRUE(ins::ok(t.step(vector<3>(x))) && ins::ok(f.step(vector<3>(x))));
+            const auto reused = r.step(vector<3>(x));
             ASSERT_TRUE(reused);
             chained = reused.value;
         }
@@ -205,7 +153,7 @@ TEST(cpp_vector_quaternion, conversions)
     }
     for (const json& c : file["products"])
     {
-        const auto q = ins::from_rotvec(vector3(c["rv"]));
+        const auto q = ins::from_rotvec(vector<3>(c["rv"]));
         ASSERT_TRUE(q);
         take(worst, q.value, c["q_rv"], "from_rotvec");
     }
@@ -233,8 +181,8 @@ TEST(cpp_vector_sculling, rows)
             Columns v(3, 3);
             for (Eigen::Index i = 0; i < 3; i++)
             {
-                theta.col(i) = vector3(rows[k - 2 + static_cast<size_t>(i)]["theta"]);
-                v.col(i) = vector3(rows[k - 2 + static_cast<size_t>(i)]["v"]);
+                theta.col(i) = vector<3>(rows[k - 2 + static_cast<size_t>(i)]["theta"]);
+                v.col(i) = vector<3>(rows[k - 2 + static_cast<size_t>(i)]["v"]);
             }
             const auto dv = ins::sculling_dv(INS_CONING_HIST2_OPT, theta, v);
             ASSERT_TRUE(dv);
@@ -257,8 +205,8 @@ TEST(cpp_vector_sixacc, rows_and_linear_maps)
         for (const json& row : c["rows"])
         {
             ins::Vector<6> f;
-            f << vector3(row["f"]), number(row["f"][3]), number(row["f"][4]), number(row["f"][5]);
-            const auto motion = six.resolve(f, vector3(row["w"]));
+            f << vector<3>(row["f"]), number(row["f"][3]), number(row["f"][4]), number(row["f"][5]);
+            const auto motion = six.resolve(f, vector<3>(row["w"]));
             const auto largest = static_cast<double>(f.cwiseAbs().maxCoeff());
             take(worst, motion.wd_ib_b, row["wd"], largest / c["rho"].get<double>(), "wd");
             take(worst, motion.f_b, row["f_centre"], largest, "f");
@@ -274,7 +222,7 @@ TEST(cpp_vector_sixacc, rows_and_linear_maps)
         for (size_t k = 0; k < attitudes.size(); k++)
         {
             const ins::Vector3 readings(number(c["P"][0][k]), number(c["P"][1][k]), number(c["P"][2][k]));
-            ASSERT_EQ(fit.add(vector3(attitudes[k]) * number(c["g"]), readings / number(c["T"])), ins::Status::Ok);
+            ASSERT_EQ(fit.add(vector<3>(attitudes[k]) * number(c["g"]), readings / number(c["T"])), ins::Status::Ok);
         }
         for (unsigned j = 0; j < 3; j++)
         {
@@ -297,20 +245,20 @@ TEST(cpp_vector_geodesy, ecef_and_tm)
         const double rad = PI / 180;
         const json llh = {p["lat_deg"].get<double>() * rad, p["lon_deg"].get<double>() * rad, p["h"]};
         const json xyz = {p["X"], p["Y"], p["Z"]};
-        const auto there = ins::geodesy_to_ecef(ins_grs80, vector3(llh));
-        const auto back = ins::geodesy_from_ecef(ins_grs80, vector3(xyz));
+        const auto there = ins::geodesy_to_ecef(ins_grs80, vector<3>(llh));
+        const auto back = ins::geodesy_from_ecef(ins_grs80, vector<3>(xyz));
         ASSERT_TRUE(there && back);
         take(metres, there.value, xyz, 1, "ECEF");
         take(angles, back.value.head<2>(), {llh[0], llh[1]}, 1, "llh");
         ins::Tm tm;
         ASSERT_EQ(tm.init_twd97(p["epsg"] == 3826 ? 121 : 119), ins::Status::Ok);
-        const auto en = tm.forward(vector3(llh).head<2>());
+        const auto en = tm.forward(vector<3>(llh).head<2>());
         const auto ll = tm.inverse({number(p["E"]), number(p["N"])});
         ASSERT_TRUE(en && ll);
         take(grid, en.value, {p["E"], p["N"]}, 1, "EN");
         take(angles, ll.value, {llh[0], llh[1]}, 1, "lat, lon");
         ins::Local local;
-        ASSERT_EQ(local.init(ins_grs80, vector3(llh)), ins::Status::Ok);
+        ASSERT_EQ(local.init(ins_grs80, vector<3>(llh)), ins::Status::Ok);
         const ins::Vector3 ned(3, -4, 5);
         take(metres, local.from_ecef(local.to_ecef(ned)), {3, -4, 5}, 1, "NED");
     }
@@ -319,75 +267,50 @@ TEST(cpp_vector_geodesy, ecef_and_tm)
     expect_within(grid, TOL_TM_M, "TM2 [m]");
 }
 
-TEST(cpp_vector_kalman_pva, joseph_and_ud)
+TEST(cpp_vector_calib_full, least_squares)
 {
-    const json file = load("kalman_pva.json");
-    const auto Phi = square<3>(file["A"]);
-    const auto Q = square<3>(file["Q"]);
-    const auto Q_ud = ins::Ud<3>::factor(Q);
-    ASSERT_TRUE(Q_ud);
-    for (const json& run : file["runs"])
+    const json file = load("calib_full.json");
+    const ins_real g = number(file["g"]);
+    Worst parameters;
+    Worst readings;
+    Worst deviations;
+    for (const json& a : file["acc"])
     {
-        ins::Kalman<3> joseph;
-        ins::Ud<3> ud;
-        joseph.P = square<3>(run["P0"]);
-        const auto P0_ud = ins::Ud<3>::factor(joseph.P);
-        ASSERT_TRUE(P0_ud);
-        ud.UD = P0_ud.value;
-        Worst worst;
-        size_t next = 0;
-        for (size_t k = 0; k < run["z"].size(); k++)
+        const std::string name = "accelerometer " + a["acc"].dump();
+        ins::AccelFit fit;
+        ins::AccelFit truth;
+        const auto u0 = vector<3>(a["u0"]);
+        const auto e1 = vector<3>(a["e1"]);
+        const auto e2 = vector<3>(a["e2"]);
+        ASSERT_EQ(fit.init(u0, e1, e2, vector<8>(a["p0"])), ins::Status::Ok);
+        ASSERT_EQ(truth.init(u0, e1, e2, vector<8>(a["p_true"])), ins::Status::Ok);
+        ASSERT_EQ(fit.step().status, ins::Status::State) << "without rows";
+        const auto pass = [&]
         {
-            joseph.predict(Phi, Q);
-            ud.predict(Phi, Q_ud.value);
-            for (size_t row = 0; row < run["H"].size(); row++)
+            for (size_t k = 0; k < file["meas"].size(); k++)
             {
-                const auto axis = static_cast<Eigen::Index>(row);
-                const ins_real z = number(run["z"][k][row]);
-                ins_innovation_t i = {z - joseph.x(axis), number(run["R"][row][row]), 0, 0};
-                ins_innovation_t u = {z - ud.x(axis), number(run["R"][row][row]), 0, 0};
-                ASSERT_EQ(joseph.update(ins::Vector3::Unit(axis), i), ins::Status::Ok);
-                ASSERT_EQ(ud.update(ins::Vector3::Unit(axis), u), ins::Status::Ok);
-                EXPECT_LT(static_cast<double>((joseph.gain() - ud.gain()).norm()), TOL_PVA * 10);
+                const auto m = vector<9>(file["meas"][k]);
+                const ins::AccelFit::Motion motion = {g * m.head<3>(), m.segment<3>(3), m.tail<3>()};
+                ASSERT_EQ(fit.add(motion, number(a["y_noisy"][k])), ins::Status::Ok);
+                readings.take(static_cast<double>(truth.predict(motion).reading), a["y_clean"][k], 1, name);
             }
-            if (next < run["steps"].size() && run["steps"][next]["k"].get<size_t>() == k)
-            {
-                const json& want = run["steps"][next++];
-                const double size = std::max(1e-3, norm(want["x"].get<Vec>()));
-                const double variance = std::max(1e-3, norm(want["P_diag"].get<Vec>()));
-                take(worst, joseph.x, want["x"], size, "Joseph x");
-                take(worst, ud.x, want["x"], size, "UD x");
-                take(worst, joseph.P.diagonal(), want["P_diag"], variance, "Joseph P");
-                take(worst, ud.covariance().diagonal(), want["P_diag"], variance, "UD P");
-            }
-        }
-        EXPECT_EQ(next, run["steps"].size());
-        expect_within(worst, TOL_PVA, "kalman_pva " + run["name"].get<std::string>());
-    }
-}
-
-TEST(cpp_vector_gps_dr, fusion)
-{
-    Worst worst;
-    const json list = load("gps_dr.json")["fusion"];
-    for (const json& c : list)
-    {
-        ins::Fusion<4> fusion;
-        EXPECT_FALSE(fusion.solve());
-        for (size_t i = 0; i < c["x"].size(); i++)
+        };
+        for (int passes = 0; passes < 5; passes++)
         {
-            ins::Fusion<4>::Estimate one;
-            one.x << vector3(c["x"][i]), number(c["x"][i][3]);
-            one.P = square<4>(c["P"][i]);
-            ASSERT_EQ(fusion.add(one), ins::Status::Ok);
+            pass();
+            ASSERT_TRUE(fit.step());
         }
-        const auto fused = fusion.solve();
-        ASSERT_TRUE(fused);
-        take(worst, fused.value.x, c["x_fused"], 1, "x");
-        take(worst, fused.value.P.row(1), c["P_fused"][1], 1, "P");
-        const auto shared = ins::fusion_share<4>(fused.value.P, number(c["beta"][0]));
-        ASSERT_TRUE(shared);
-        take(worst, shared.value.row(2), c["P_local_reset"][0][2], 1, "P shared");
+        take(parameters, fit.p(), a["p_est_noisy"], 1, name);
+        pass();
+        const auto sd = fit.deviation(number(a["p_true"][1]) * INS_C(1e-3)); // the file's noise: 1 mm/s^2
+        ASSERT_TRUE(sd);
+        for (Eigen::Index i = 0; i < 8; i++)
+        {
+            const double want = a["sd"][static_cast<size_t>(i)];
+            deviations.take(static_cast<double>(sd.value(i)), want, want, name);
+        }
     }
-    expect_within(worst, TOL_FUSION, "fusion");
+    expect_within(parameters, TOL_FIT, "parameters with noise");
+    expect_within(readings, INS_TOL(1e-13, 1e-5), "readings, m/s^2");
+    expect_within(deviations, INS_TOL(1e-5, 1e-3), "standard deviations, relative");
 }

@@ -31,6 +31,55 @@ inline std::string hex(const Octets& octets)
     return text;
 }
 
+/// What passes between the two for a case of handshake.json, whose faults the line adds. \param[out] accepted  the block, or null.
+inline json transcript_of(const json& c, ins_hs_board_t* board, ins_hs_host_t* host, json* accepted)
+{
+    *accepted = nullptr;
+    std::vector<std::pair<std::string, std::string>> transcript;
+    size_t frames = 0;
+    Octets frame;
+    for (int16_t out; (out = ins_hs_board_tx(board, 0)) >= 0;)
+    {
+        frame.push_back(static_cast<ins_octet_t>(out));
+        if (frame.size() != (transcript.empty() ? 1u : 7u))
+        {
+            continue;
+        }
+        if (frame.size() == 7 && frames < c["faults"].size())
+        {
+            const json& fault = c["faults"][frames];
+            const size_t at = fault[1];
+            if (fault[0] == "bit")
+            {
+                frame[at] = static_cast<ins_octet_t>(frame[at] ^ (1u << fault[2].get<unsigned>()));
+            }
+            else
+            {
+                EXPECT_EQ(fault[0], "swap");
+                std::swap(frame[at], frame[at + 1]);
+            }
+        }
+        frames += frame.size() == 7;
+        transcript.push_back({"A>B", hex(frame)});
+        for (const ins_octet_t octet : frame)
+        {
+            int16_t reply;
+            const int event = ins_hs_host_rx(host, octet, 0, &reply);
+            if (event == INS_HS_BLOCK)
+            {
+                *accepted = Octets(host->block, host->block + 6);
+            }
+            if (reply >= 0)
+            {
+                transcript.push_back({"B>A", hex({static_cast<ins_octet_t>(reply)})});
+                ins_hs_board_rx(board, static_cast<ins_octet_t>(reply), 0);
+            }
+        }
+        frame.clear();
+    }
+    return transcript;
+}
+
 /// The two machines and a line in each direction; one octet takes one tick of time.
 struct Link
 {

@@ -1,25 +1,14 @@
 /// \file   test_gimu.cpp
 /// \brief  GIMU packets: the reference streams, every state with every octet, random octets; scaling.
 /// SPDX-License-Identifier: MIT
-#include "core_test.h"
+#include "gimu_file.h"
 #include <random>
 using namespace core_test;
 
 namespace
 {
-using Octets = std::vector<ins_octet_t>;
 constexpr long RANDOM_OCTETS = 1000000;
 constexpr long RANDOM_OCTETS_BENCH = 100000000; ///< with INS_BENCH set
-
-Octets unhex(const std::string& text)
-{
-    Octets octets;
-    for (size_t i = 0; i + 1 < text.size(); i += 2)
-    {
-        octets.push_back(static_cast<ins_octet_t>(std::stoul(text.substr(i, 2), nullptr, 16)));
-    }
-    return octets;
-}
 
 /// What the machine promises between any two octets.
 void expect_sound(const ins_gimu_t& g, long octets)
@@ -84,20 +73,7 @@ TEST(vector_gimu, streams)
                 return;
             }
             ASSERT_LT(found, s["packets"].size()) << name;
-            const json& p = s["packets"][found++];
-            ASSERT_EQ(type, p["type"].get<int>()) << name;
-            EXPECT_EQ(json(std::vector<unsigned>(g.packet.raw, g.packet.raw + 6)), p["raw"]) << name;
-            if (type == INS_GIMU_T2)
-            {
-                EXPECT_EQ(g.packet.coordinate[0], p["lat_raw"].get<uint32_t>()) << name;
-                EXPECT_EQ(g.packet.coordinate[1], p["lon_raw"].get<uint32_t>()) << name;
-                EXPECT_EQ(g.packet.sats, p["sats"].get<unsigned>()) << name;
-                const double f1 = p["f1_deg"];
-                const double f2 = p["f2_deg"];
-                ASSERT_TRUE(g.packet.has_position);
-                EXPECT_NEAR(g.packet.lat_e7, (f1 > 90 ? f2 : f1) * 1e7, 0.51) << name;
-                EXPECT_NEAR(g.packet.lon_e7, (f1 > 90 ? f1 : f2) * 1e7, 0.51) << name;
-            }
+            expect_packet(type, g.packet, s["packets"][found++], name);
         };
         long octets = 0;
         for (const ins_octet_t o : unhex(s["hex"]))

@@ -446,6 +446,10 @@ TEST(pva, refusals)
             EXPECT_EQ(ins_pva_init(&f, wrong), INS_E_RANGE);
         }
     }
+    for (const ins_real k : f.K)
+    {
+        EXPECT_EQ(k, 0) << "no update yet";
+    }
     EXPECT_EQ(ins_pva_predict(&f, -1, 1), INS_E_RANGE);
     EXPECT_EQ(ins_pva_predict(&f, nan, 1), INS_E_RANGE);
     EXPECT_EQ(ins_pva_predict(&f, 1, -1), INS_E_RANGE);

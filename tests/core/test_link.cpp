@@ -461,6 +461,9 @@ TEST(link, refusals)
     }
     const ins_hs_config_t good = config(false, 3, INS_LINK_BLOCK_MAX);
     ASSERT_EQ(ins_link_host_init(&host, &good), INS_OK);
+    const ins_hs_config_t hasty = {INS_LINK_BLOCK_MAX, 0, 3, REPLY_TIMEOUT, 0}; // refused by the machine inside
+    EXPECT_EQ(ins_link_host_init(&host, &hasty), INS_E_RANGE);
+    EXPECT_EQ(host.hs.cfg.octet_timeout, OCTET_TIMEOUT) << "a refused start leaves the host alone";
     ASSERT_EQ(ins_link_board_init(&board, &good), INS_OK);
     const Octets block(INS_LINK_BLOCK_MAX, 1);
     ASSERT_EQ(ins_link_board_offer(&board, block.data(), 0, 0), INS_OK);

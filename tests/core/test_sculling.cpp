@@ -109,6 +109,35 @@ TEST(sculling, a_turn_too_large_is_refused_and_changes_nothing)
     }
 }
 
+/// A rotation in one interval and a force in another meet with the coefficient of two such rotations, in every form.
+TEST(sculling, coefficients_are_those_of_coning)
+{
+    Worst worst;
+    for (const Form& f : forms())
+    {
+        const int n = ins_coning_samples(f.form);
+        for (int i = 0; i < n; i++)
+        {
+            for (int j = 0; j < n; j++)
+            {
+                ins_increment_t x[INS_CONING_SAMPLES_MAX] = {};
+                ins_real theta[3 * INS_CONING_SAMPLES_MAX] = {0};
+                ins_real phi[3];
+                ins_real dv[3];
+                x[i].theta_b[0] = 1;
+                x[j].v_b[1] = 1;
+                theta[3 * i] = 1;
+                theta[3 * j + 1] = 1;
+                ASSERT_EQ(ins_coning_phi(f.form, theta, phi), INS_OK);
+                ASSERT_EQ(ins_sculling_dv(f.form, x, dv), INS_OK);
+                const bool now = ins_coning_is_block(f.form) == 1 || (i == n - 1 && j == n - 1);
+                worst.take(static_cast<double>(dv[2]), static_cast<double>(phi[2]) + (now ? 0.5 : 0), 1, f.name);
+            }
+        }
+    }
+    expect_within(worst, INS_TOL(1e-15, 1e-7), "sculling coefficients");
+}
+
 TEST(sculling, block_form_of_a_constant_turn)
 {
     // Rate and force constant in b: dv = theta/|theta|-rotations integrate to v + theta x v / 2 + O(theta^2 v / 6).

@@ -242,6 +242,9 @@ TEST(thesis, refuses_and_changes_nothing)
     ins_thesis_t t;
     EXPECT_EQ(ins_thesis_init(&t, long_q), INS_E_RANGE);
     EXPECT_EQ(ins_thesis_init(&t, nan_q), INS_E_RANGE);
+    const ins_real tilted[4] = {INS_C(0.1), INS_C(-0.7), INS_C(0.5), INS_C(0.5)}; // a unit
+    ASSERT_EQ(ins_thesis_init(&t, tilted), INS_OK);
+    EXPECT_LT(angle_between(quat(t.q_nb), quat(tilted)), INS_TOL(1e-15, 5e-7));
     ASSERT_EQ(ins_thesis_init(&t, LEVEL), INS_OK);
     ins_thesis_rk4_t r;
     EXPECT_EQ(ins_thesis_rk4_init(&r, 1, INS_C(0.01), long_q, REST), INS_E_RANGE);

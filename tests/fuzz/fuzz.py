@@ -21,7 +21,7 @@ LONGEST = 1024  # octets of an input
 SOURCES = {
     "parsers": ["nmea", "gimu", "handshake_board", "handshake_host", "link_board", "link_host"],
     "nmea": ["nmea"],
-    "attitude": ["attitude", "attitude_any", "sculling", "sculling_any", "coning", "quat", "rotvec", "q31"],
+    "attitude": ["attitude", "attitude_any", "hist2", "sculling", "sculling_any", "coning", "quat", "rotvec", "q31"],
 }
 
 

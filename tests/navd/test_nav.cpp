@@ -1,5 +1,6 @@
 // The solver: codes to attitude, gaps, flags; and the JSON line. Reference: closed-form rates of a yaw, pitch, roll motion.
 // SPDX-License-Identifier: MIT
+#include "../core/core_test.h"
 #include "ins/coning.h"
 #include "ins/quat.h"
 #include "ins_nav/nav.h"
@@ -86,7 +87,7 @@ double worst_error(const ins_nav_config_t& base, const std::array<double, 3>& de
         const auto truth = motion.euler(state.t_s);
         for (size_t i = 0; i < 3; i++)
         {
-            worst = std::max(worst, std::fabs(state.euler_rad[i] - truth[i]));
+            worst = core_test::larger(worst, std::fabs(state.euler_rad[i] - truth[i]));
         }
     }
     return worst;

@@ -42,6 +42,7 @@ int main(void)
     const ins_real llh[3] = {INS_C(0.43), INS_C(2.11), INS_C(100.)};
     ins_attitude_t attitude;
     ins_strapdown_t strapdown;
+    ins_hist2_t lean;
     ins_fiter_t fiter;
     ins_q31_t fixed;
     ins_rates_t rates;
@@ -52,6 +53,7 @@ int main(void)
     ins_real east_north[2];
     ins_attitude_init(&attitude, INS_CONING_HIST3_OPT, level);
     ins_strapdown_init(&strapdown, INS_CONING_HIST2_OPT, PERIOD_S, level, at_rest, &start);
+    ins_hist2_init(&lean, level);
     ins_fiter_init(&fiter, INS_FITER_HIST3, PERIOD_S, level);
     ins_q31_init(&fixed, level_q30);
     ins_rates_init(&rates, 4, PERIOD_S);
@@ -64,6 +66,7 @@ int main(void)
         const int32_t counts[3] = {k % 31 * 1000003 - 15000000, k % 47 * 1000033, 20000000 - k % 23 * 1000037};
         ins_real integral[3];
         ins_attitude_step(&attitude, theta);
+        ins_hist2_step(&lean, theta);
         ins_fiter_step(&fiter, theta);
         ins_strapdown_step(&strapdown, &increment);
         ins_q31_step(&fixed, counts);
@@ -78,6 +81,7 @@ int main(void)
     const int made =
         ins_tm_init_twd97(&tm, 121) == INS_OK && ins_tm_forward(&tm, llh[0], llh[1], east_north, NULL) == INS_OK;
     print_hash("attitude", attitude.q_nb, sizeof attitude.q_nb);
+    print_hash("hist2", lean.q_nb, sizeof lean.q_nb);
     print_hash("fiter", fiter.q_nb, sizeof fiter.q_nb);
     print_hash("strapdown", strapdown.v_n, sizeof strapdown.v_n);
     print_hash("fixed", fixed.q_nb, sizeof fixed.q_nb);

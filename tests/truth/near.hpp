@@ -9,14 +9,19 @@
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
+/// The larger of two errors; NaN counts as infinity, where std::max(worst, NaN) is worst.
+inline double larger(double worst, double error)
+{
+    return error <= worst ? worst : (error == error ? error : infinity);
+}
+
 /// Largest absolute difference of n components; NaN counts as infinity.
 inline double max_difference(const double* a, const double* b, int n)
 {
     double worst = 0.0;
     for (int i = 0; i < n; i++)
     {
-        const double d = std::fabs(a[i] - b[i]);
-        worst = d <= worst ? worst : (d == d ? d : infinity);
+        worst = larger(worst, std::fabs(a[i] - b[i]));
     }
     return worst;
 }

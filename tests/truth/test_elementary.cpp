@@ -30,12 +30,12 @@ TEST(elementary, sincos_within_1e6_rad)
     for (int k = 0; k < draws; k++)
     {
         const double scale = std::pow(10.0, random(-3.0, 6.0));
-        worst = std::max(worst, sincos_error(random(-scale, scale)));
+        worst = larger(worst, sincos_error(random(-scale, scale)));
     }
     for (int k = -600000; k <= 600000; k += 7) // where the reduction cancels most
     {
-        worst = std::max(worst, sincos_error(k * (INS_TRUTH_PI / 2.0)));
-        worst = std::max(worst, sincos_error((k + 0.5) * (INS_TRUTH_PI / 2.0)));
+        worst = larger(worst, sincos_error(k * (INS_TRUTH_PI / 2.0)));
+        worst = larger(worst, sincos_error((k + 0.5) * (INS_TRUTH_PI / 2.0)));
     }
     RecordProperty("worst", std::to_string(worst * 1e16) + "e-16");
     EXPECT_LE(worst, tolerance) << "seed " << seed;
@@ -71,7 +71,7 @@ TEST(elementary, atan2_all_round)
         const double y = length * std::sin(angle);
         const double x = length * std::cos(angle);
         const long double want = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
-        worst = std::max(worst, static_cast<double>(std::fabs(static_cast<long double>(ins_truth_atan2(y, x)) - want)));
+        worst = larger(worst, static_cast<double>(std::fabs(static_cast<long double>(ins_truth_atan2(y, x)) - want)));
     }
     RecordProperty("worst", std::to_string(worst * 1e16) + "e-16");
     EXPECT_LE(worst, tolerance) << "seed " << seed;
@@ -89,7 +89,7 @@ TEST(elementary, log_of_normal_numbers)
         const double x = k % 2 == 0 ? std::pow(10.0, random(-300.0, 300.0)) : random(0.0, 2.0);
         const long double want = std::log(static_cast<long double>(x));
         const long double error = std::fabs(static_cast<long double>(ins_truth_log(x)) - want);
-        worst = std::max(worst, static_cast<double>(error / std::max(1.0L, std::fabs(want))));
+        worst = larger(worst, static_cast<double>(error / std::max(1.0L, std::fabs(want))));
     }
     RecordProperty("worst", std::to_string(worst * 1e16) + "e-16");
     EXPECT_LE(worst, tolerance) << "seed " << seed;

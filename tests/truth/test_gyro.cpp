@@ -147,7 +147,7 @@ TEST(gyro, bandwidth_is_first_order)
             const double t = 0.05 * k;
             const std::complex<double> response = 1.0 / std::complex<double>(1.0, row.ratio);
             const double want = (0.5 * w * response * std::polar(1.0, w * t)).real();
-            worst = std::max(worst, std::fabs(ins_gyro_rate(&g, 2, 50 * k * ms) - want) / (0.5 * w));
+            worst = larger(worst, std::fabs(ins_gyro_rate(&g, 2, 50 * k * ms) - want) / (0.5 * w));
         }
         EXPECT_LE(worst, row.relative) << "f / bandwidth = " << row.ratio;
         if (row.ratio >= 1.0)
@@ -178,7 +178,7 @@ TEST(gyro, bandwidth_through_a_ramp)
             ins_motion_rate(m.get(), 0.005 * k - s * tau, rate);
             want += weight * std::exp(-s) * rate[2] * (40.0 / steps / 3.0);
         }
-        worst = std::max(worst, std::fabs(ins_gyro_rate(&g, 2, 5 * k * ms) - want));
+        worst = larger(worst, std::fabs(ins_gyro_rate(&g, 2, 5 * k * ms) - want));
     }
     RecordProperty("worst", std::to_string(worst * 1e9) + "e-9");
     EXPECT_LE(worst, 1e-6); // [rad/s], of 1.26

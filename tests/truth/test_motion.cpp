@@ -244,7 +244,7 @@ TEST(motion, table_passes_its_rows_and_converges)
             double b[4];
             ins_motion_attitude(m.get(), t, a);
             ins_motion_attitude(fine.get(), t, b);
-            most = std::max(most, max_difference(a, b, 4));
+            most = larger(most, max_difference(a, b, 4));
         }
         return most;
     };

@@ -39,7 +39,7 @@ void expect_rows(const std::vector<Row>& want, const char* what, const std::func
     {
         double got[4];
         compute(static_cast<int>(k), got);
-        worst = std::max(worst, max_difference(got, want[k].data(), static_cast<int>(want[k].size())));
+        worst = larger(worst, max_difference(got, want[k].data(), static_cast<int>(want[k].size())));
     }
     testing::Test::RecordProperty(what, std::to_string(worst * 1e16) + "e-16");
     EXPECT_LE(worst, tolerance) << what;

@@ -9,9 +9,32 @@
 #include "ins/batch.h"
 #include "ins/coning.h"
 #include "ins/eigen.hpp"
+#include "ins/hist2.h"
 
 namespace ins
 {
+namespace detail
+{
+/// Each column is an increment; the attitude after it goes to the same column of q_out.
+template <class Filter> Result<Eigen::Index> run(Filter& self, const Samples& dtheta_b, QuaternionsOut& q_out)
+{
+    if (dtheta_b.cols() != q_out.cols())
+    {
+        return {Status::Range, 0};
+    }
+    return for_each(dtheta_b.cols(),
+                    [&](Eigen::Index k)
+                    {
+                        const Status s = self.step(dtheta_b.col(k));
+                        if (ok(s))
+                        {
+                            q_out.col(k) = self.q_nb().coeffs();
+                        }
+                        return s;
+                    });
+}
+} // namespace detail
+
 /// Rotation vector of a form's interval; columns are its increments, oldest first [rad].
 [[nodiscard]] inline Result<Vector3> coning_phi(int form, const Samples& theta_b)
 {
@@ -33,29 +56,32 @@ class Attitude
         return detail::status(ins_attitude_init(&raw, form, detail::Quat(q_nb).q));
     }
     Status step(const Vector3& dtheta_b) { return detail::status(ins_attitude_step(&raw, dtheta_b.data())); }
-    /// Each column is an increment; the attitude after it goes to the same column of q_nb.
+    /// Each column is an increment; the attitude after it goes to the same column of q_out.
     [[nodiscard]] Result<Eigen::Index> run(const Samples& dtheta_b, QuaternionsOut q_out)
     {
-        if (dtheta_b.cols() != q_out.cols())
-        {
-            return {Status::Range, 0};
-        }
-        return detail::for_each(dtheta_b.cols(),
-                                [&](Eigen::Index k)
-                                {
-                                    const Status s = detail::status(ins_attitude_step(&raw, dtheta_b.col(k).data()));
-                                    if (ok(s))
-                                    {
-                                        q_out.col(k) = q_nb().coeffs();
-                                    }
-                                    return s;
-                                });
+        return detail::run(*this, dtheta_b, q_out);
     }
     Status turn_frame(const Vector3& dzeta_n) { return detail::status(ins_attitude_turn_frame(&raw, dzeta_n.data())); }
     Status jump(const Vector3& phi_b) { return detail::status(ins_attitude_jump(&raw, phi_b.data())); }
     [[nodiscard]] Quaternion q_nb() const { return detail::quaternion(raw.q_nb); }
 
     ins_attitude_t raw = {};
+};
+
+/// The same by INS_CONING_HIST2_OPT alone, for small flash: ins_hist2_t.
+class Hist2
+{
+  public:
+    Status init(const Quaternion& q_nb) { return detail::status(ins_hist2_init(&raw, detail::Quat(q_nb).q)); }
+    Status step(const Vector3& dtheta_b) { return detail::status(ins_hist2_step(&raw, dtheta_b.data())); }
+    /// As Attitude's.
+    [[nodiscard]] Result<Eigen::Index> run(const Samples& dtheta_b, QuaternionsOut q_out)
+    {
+        return detail::run(*this, dtheta_b, q_out);
+    }
+    [[nodiscard]] Quaternion q_nb() const { return detail::quaternion(raw.q_nb); }
+
+    ins_hist2_t raw = {};
 };
 
 /// N trajectories at once, one a row: ins_batch_t. Columns are w, x, y, z and x, y, z; the state is the caller's, one column each of

@@ -1,14 +1,14 @@
 /// \file   ins/filters.hpp
-/// \brief  Kalman filter of N states in Joseph and UD form, and fusion, over fixed-size Eigen matrices.
+/// \brief  Kalman filter of N states in Joseph and UD form, that of an axis, and fusion, over fixed-size Eigen matrices.
 ///
-/// Thin: each function is one call of the C function named the same. The filters of set size (ins/pva.h, ins/gps_axis.h,
-/// ins/dead_reckoning.h, ins/unicycle.h) have plain members; Eigen::Map<const ins::Vector<3>>(f.x) reads them.
+/// Thin: each function is one call of the C function named the same. Those of GPS and dead reckoning: ins/gps_dr.hpp.
 /// SPDX-License-Identifier: MIT
 #ifndef INS_FILTERS_HPP_INCLUDED
 #define INS_FILTERS_HPP_INCLUDED
 #include "ins/eigen.hpp"
 #include "ins/fusion.h"
 #include "ins/kalman.h"
+#include "ins/pva.h"
 
 namespace ins
 {
@@ -75,6 +75,20 @@ template <int N> class Ud
 
   private:
     Real work[INS_UD_WORK(N)] = {};
+};
+
+/// Position, velocity and acceleration of one axis: ins_pva_t.
+class Pva
+{
+  public:
+    Status init(const Vector3& var) { return detail::status(ins_pva_init(&raw, var.data())); }
+    Status predict(Real dt, Real q) { return detail::status(ins_pva_predict(&raw, dt, q)); }
+    Status update(int what, ins_innovation_t& z) { return detail::status(ins_pva_update(&raw, what, &z)); }
+    [[nodiscard]] Vector3 x() const { return Vector3(raw.x); }
+    [[nodiscard]] Square<3> P() const { return Square<3>(raw.P); }
+    [[nodiscard]] Vector3 gain() const { return Vector3(raw.K); }
+
+    ins_pva_t raw = {};
 };
 
 /// Sum of the information of estimates taken for uncorrelated.

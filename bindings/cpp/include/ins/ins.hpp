@@ -4,12 +4,15 @@
 /// SPDX-License-Identifier: MIT
 #ifndef INS_INS_HPP_INCLUDED
 #define INS_INS_HPP_INCLUDED
+#include "ins/accelfit.hpp"
 #include "ins/align.hpp"
 #include "ins/attitude.hpp"
 #include "ins/compare.hpp"
 #include "ins/eigen.hpp"
 #include "ins/filters.hpp"
 #include "ins/geodesy.hpp"
+#include "ins/gimu.hpp"
+#include "ins/gps_dr.hpp"
 #include "ins/ins.h"
 #include "ins/quaternion.hpp"
 #include "ins/rates.hpp"
