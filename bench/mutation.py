@@ -5,13 +5,14 @@
 Mutants come from universalmutator's rules, a seeded sample over all sources and private headers of libins/core/src.
 A mutant that does not compile, or whose objects equal the original's (a comment, an equivalent expression), counts as
 no mutant. The others are linked with the tests' own objects (`build/release`, double) and run, the nearest tests first;
-killed means that a test failed, crashed or took ten times as long.
+killed means that a test failed, crashed or took ten times the processor time.
 """
 
 import argparse
 import contextlib
 import io
 import json
+import math
 import os
 import random
 import shutil
@@ -161,11 +162,9 @@ def judge(mutant: Mutant, core: Core, folder: Path) -> str:
             done = run(["c++", *test.objects, *objects, str(core.archive), *LINK, "-o", program], src)
             if done.returncode != 0:
                 return "uncompilable"
-            try:
-                limit = max(TIMEOUT_MIN_S, TIMEOUT_FACTOR * test.seconds)
-                if run([program, "--gtest_brief=1", "--gtest_fail_fast"], folder, limit).returncode != 0:
-                    return "killed"
-            except subprocess.TimeoutExpired:
+            limit = math.ceil(max(TIMEOUT_MIN_S, TIMEOUT_FACTOR * test.seconds))
+            command = ["prlimit", f"--cpu={limit}", program, "--gtest_brief=1", "--gtest_fail_fast"]
+            if run(command, folder).returncode != 0:
                 return "killed"
         return "survived"
     finally:
