@@ -5,7 +5,7 @@
 find_program(INS_SDCC sdcc)
 if(NOT INS_SDCC)
   message(FATAL_ERROR "SDCC, which builds the 8051 firmware, is missing. Install it: sudo apt-get install --no-install-recommends sdcc "
-                      "(or configure with -DINS_BUILD_EMU=OFF)")
+                      "(or configure with -DINS_BUILD_FIRMWARE=OFF)")
 endif()
 
 add_custom_target(firmware_8051 ALL)
