@@ -272,6 +272,11 @@ mcs51_stop_t acq_board_run(acq_board_t* self, emu_time_t t)
     return stop;
 }
 
+emu_time_t acq_board_time(acq_board_t* self, uint64_t cycle)
+{
+    return emu_ticker_time(&self->clock, cycle);
+}
+
 mcs51_t* acq_board_cpu(acq_board_t* self)
 {
     return self->cpu;

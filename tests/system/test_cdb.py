@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from intelhex import IntelHex
 from libins.cdb import CdbError, Space
 from libins.cdb_types import Kind, parse_type, scalar
 from sdcc_kit import FIRMWARE, build
@@ -17,6 +18,7 @@ EXAMPLES = 2000 if os.environ.get("INS_BENCH") == "1" else 100
 SOURCE = FIRMWARE / "kinds.c"
 RET = "22"
 RETI = "32"
+JNZ = 0x70
 
 
 @pytest.fixture(scope="module")
@@ -281,3 +283,18 @@ def ask_everything(path: Path) -> None:
         table.asm_line_at(address)
     for symbol in table.symbols:
         assert str(symbol.type)
+
+
+def test_a_line_begins_behind_a_jump_on_what_the_one_before_has_left(tmp_path):
+    """SDCC marks `return 0;` before the JNZ that skips it; a stop there would happen each time."""
+    source = FIRMWARE / "observed.c"
+    image = IntelHex(str(build(source, tmp_path, "--debug")))
+    table = cdb.load(tmp_path / "observed.cdb")
+    lines = source.read_text(encoding="ascii").splitlines()
+    asked, skipped = lines.index("    if (n == 0)") + 1, lines.index("        return 0;") + 1
+    (marked,) = table.addresses("observed.c", skipped)
+    assert image[marked] == JNZ
+    table.correct_lines(image.__getitem__)
+    assert table.addresses("observed.c", skipped) == [marked + 2]
+    assert table.line_at(marked).number == asked
+    assert table.line_at(marked + 2).number == skipped

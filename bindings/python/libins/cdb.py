@@ -15,7 +15,7 @@ address.
 
 import re
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
@@ -173,6 +173,22 @@ class Cdb:
             raise CdbError(f"{self.path}: module {module} declares no struct or union {kind.tag}")
         return self.structs[module, kind.tag]
 
+    def correct_lines(self, code: Callable[[int], int]) -> None:
+        """With the code memory of the image: a line that begins with JC, JNC, JZ or JNZ begins behind it.
+
+        SDCC's peephole optimiser moves such a jump behind the mark of the following line, although no C statement
+        begins by jumping on what another one has left in A or CY.
+        """
+        moved = []
+        for i, line in enumerate(self.c_lines):
+            last = i + 1 == len(self.c_lines) or self.c_lines[i + 1].address != line.address
+            inside = self.function_at(line.address)
+            if last and inside and inside.begin < line.address and code(line.address) in _JUMPS_ON_STATE:
+                line = replace(line, address=line.address + 2)
+            moved.append(line)
+        self.c_lines = sorted(moved)
+        self.__dict__.pop("_starts", None)
+
     def _same_code(self, a: int, b: int) -> bool:
         """Whether two addresses lie in one function, or outside of all in one module's start-up code."""
         functions = self.function_at(a), self.function_at(b)
@@ -182,6 +198,7 @@ class Cdb:
         return lines[0] is not None and lines[1] is not None and lines[0].file == lines[1].file
 
 
+_JUMPS_ON_STATE = (0x40, 0x50, 0x60, 0x70)
 _NAME = r"(?P<scope>G|F[^$]*|L[^$]*)\$(?P<name>[^$]+)\$(?P<block>[^$]+\$[^:({]+)"
 _SYMBOL = re.compile(
     _NAME + r"\((?P<type>\{\d{1,6}\}[^()]*)\),(?P<space>[A-JPRZ]),[01],(?P<stack>-?\d{1,6})(?P<rest>.*)$"

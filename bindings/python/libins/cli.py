@@ -11,7 +11,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from libins import campaign, endpoint, report, run, scenario
+from libins import campaign, endpoint, report, run, scenario, seeing
 from libins.errors import UsageError
 from libins.program import CONSOLES, Program, address, exit_place
 
@@ -57,6 +57,7 @@ def parser() -> argparse.ArgumentParser:
     r.add_argument("--report", type=Path, metavar="F.html", help="write a report with plots")
     r.add_argument("--states", type=Path, metavar="F.csv", help="write every navigation state beside its truth")
     r.add_argument("--trace", type=Path, metavar="F.csv", help="write every edge of every traced wire")
+    seeing.add_options(r)
     r.add_argument("--seed", type=int, metavar="N")
     r.add_argument("--stop-s", type=float, metavar="S", help="simulated seconds, instead of the scenario's stop_s")
     r.add_argument(
@@ -226,7 +227,12 @@ def _run_one(loaded: scenario.Scenario, options: argparse.Namespace, handle: Any
         return path if number is None else path.with_name(f"{path.stem}.{number}{path.suffix}")
 
     console = Console(stderr=True)
-    settings = run.Options(speed=_speed(options.speed), strict=options.strict, program=_program(options))
+    settings = run.Options(
+        speed=_speed(options.speed),
+        strict=options.strict,
+        program=_program(options),
+        watch=seeing.observation(loaded, options, place),
+    )
     if options.console is not None:
         settings.console = _print_octets
     if handle is not None:
@@ -255,6 +261,12 @@ def _run_one(loaded: scenario.Scenario, options: argparse.Namespace, handle: Any
     finally:
         if settings.endpoint is not None:
             settings.endpoint.close()
+        if settings.watch is not None:
+            settings.watch.close()
+    if options.profile is not None:
+        from libins import profile
+
+        _write(place(options.profile), profile.text(result.summary["observed"]))
     if options.states is not None:
         _write(place(options.states), report.states_csv(result.states))
     if options.trace is not None:

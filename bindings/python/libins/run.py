@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,6 +15,9 @@ from libins.endpoint import Endpoint
 from libins.errors import UsageError
 from libins.program import Program
 from libins.scenario import Expect, Scenario, Sinusoid
+
+if TYPE_CHECKING:
+    from libins.observe import Observation
 
 PS_PER_S = 10**12
 SLICE_S = 0.1
@@ -64,6 +67,8 @@ class Options:
     program: Program | None = None
     console: Callable[[bytes], None] | None = None
     """Takes what the program writes to its console."""
+    watch: "Observation | None" = None
+    """What looks at the firmware meanwhile."""
     progress: Callable[[float, Array], None] | None = None
     """Called with the simulated time and the new states."""
 
@@ -105,7 +110,7 @@ def gyro_of(scenario: Scenario, seed: int) -> Any:
     return gyro
 
 
-def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: bool = False) -> Any:
+def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: bool = False, seen: bool = False) -> Any:
     """The run itself, at time 0. Raises UsageError."""
     tables = scenario.tables
     gyro = gyro_of(scenario, seed)
@@ -121,6 +126,7 @@ def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: boo
     config.cuts_s = [(a, b) for a, b in tables.link.cuts_s]
     config.trace = trace
     config.listen = listen
+    config.seen = seen
     for address, octets in scenario.image:
         config.add_segment(address, octets)
     if tables.nav is not None and not outside:
@@ -140,7 +146,9 @@ def execute(scenario: Scenario, options: Options) -> Result:
     stop_s = tables.stop_s if options.stop_s is None else options.stop_s
     if tables.motion.kind == "csv" and scenario.csv is not None and scenario.csv[-1, 0] < stop_s:
         raise UsageError(f"{scenario.path}: the motion ends at {scenario.csv[-1, 0]} s, before stop_s = {stop_s}")
-    run = build(scenario, seed, options.endpoint is not None, trace=True)
+    run = build(scenario, seed, options.endpoint is not None, trace=True, seen=options.watch is not None)
+    if options.watch is not None:
+        options.watch.begin(run)
     speed = options.speed if options.endpoint is None or options.speed is not None else 1.0
     digest = hashlib.sha256()
     blocks: list[Array] = []
@@ -167,6 +175,8 @@ def execute(scenario: Scenario, options: Options) -> Result:
         digest.update(edges.tobytes())
         if options.trace is not None:
             options.trace(edges)
+        if options.watch is not None:
+            options.watch.slice(run, edges)
         if options.publish is not None:
             for state in raw:
                 options.publish(state)
@@ -192,6 +202,7 @@ def execute(scenario: Scenario, options: Options) -> Result:
         "dds": {"published": published, "received": None} if options.publish is not None else None,
         "trace_sha256": digest.hexdigest(),
         "reports": run.reports(),
+        **({"observed": options.watch.end(run)} if options.watch is not None else {}),
     }
     checks = [_judged(expect, summary) for expect in tables.expect]
     if tables.stop_samples is not None:

@@ -110,6 +110,12 @@ void Run::wire_up()
         taps_[i] = {this, i};
         wired = emu_wire_watch(acq_board_wire(board_.get(), traced[i]), on_edge, &taps_[i]) == 0;
     }
+    for (unsigned i = 0; wired && config_.seen && i < pins; i++)
+    {
+        const std::string name = "P" + std::to_string(i / 8) + "." + std::to_string(i % 8);
+        pin_taps_[i] = {this, i};
+        wired = emu_wire_watch(acq_board_wire(board_.get(), name.c_str()), on_pin_edge, &pin_taps_[i]) == 0;
+    }
     if (!wired)
     {
         throw std::invalid_argument("the serial line could not be made: baud, probability or cut out of range");
@@ -167,9 +173,13 @@ double Run::on_volts(void* ctx, unsigned channel, int64_t t)
     return held != self.volts_.end() ? held->second : ins_gyro_volts(&self.gyro_, channel, t);
 }
 
-void Run::on_sample(void* ctx, unsigned channel, uint16_t code, double, emu_time_t at)
+void Run::on_sample(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at)
 {
     Run& self = *static_cast<Run*>(ctx);
+    if (self.config_.seen)
+    {
+        self.samples_.push_back({at, channel, code, volts});
+    }
     if (channel == 0)
     {
         self.pending_channels_ = 0;
@@ -192,6 +202,12 @@ void Run::on_edge(void* ctx, bool level, emu_time_t at)
 {
     const Tap& tap = *static_cast<const Tap*>(ctx);
     tap.run->edges_.push_back({at, tap.wire, level});
+}
+
+void Run::on_pin_edge(void* ctx, bool level, emu_time_t at)
+{
+    const Tap& tap = *static_cast<const Tap*>(ctx);
+    tap.run->pin_edges_.push_back({at, tap.wire, level});
 }
 
 void Run::on_report(void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at)

@@ -90,6 +90,17 @@ struct RunConfig
     bool trace = false;
     bool six = false;    ///< the board of acq_board_six_config()
     bool listen = false; ///< keep the octets that the host receives, also where the navigator takes them
+    bool seen =
+        false; ///< keep the converter's samples and the edges of all pins, for take_samples() and take_pin_edges()
+};
+
+/// One sample of the converter: `at` is the end of its acquisition.
+struct Sample
+{
+    emu_time_t at;
+    unsigned channel;
+    uint16_t code;
+    double volts;
 };
 
 class Run
@@ -98,6 +109,8 @@ class Run
     /// Names of the wires in a trace, by Edge::wire.
     static constexpr std::array<const char*, 7> traced = {"EOC", "I/O CLOCK", "DATA IN", "DATA OUT",
                                                           "/CS", "TXD",       "RXD"};
+
+    static constexpr unsigned pins = 32;
 
     /// Throws std::invalid_argument with the reason.
     Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const ins_gyro_config_t& gyro);
@@ -117,6 +130,8 @@ class Run
     std::optional<Program>& program() { return program_; }
     /// Nothing more will happen: the firmware jumps to itself with interrupts off.
     bool halted() const { return halted_; }
+    /// Of a wire of `traced`, now.
+    bool level(size_t wire) const { return acq_board_wire(board_.get(), traced.at(wire))->level; }
     /// From now on that many volts on an analogue input, whatever the motion says, until they are cleared.
     void set_volts(unsigned channel, double volts) { volts_[channel] = volts; }
     void clear_volts(unsigned channel) { volts_.erase(channel); }
@@ -129,8 +144,13 @@ class Run
     acq_board_t* board() const { return board_.get(); }
     const RunConfig& config() const { return config_; }
     mcs51_t* cpu() const { return acq_board_cpu(board_.get()); }
+    /// What is at the converter's input at instant t.
+    double volts(unsigned channel, emu_time_t t) { return on_volts(this, channel, t); }
     std::vector<Scored> take_states() { return std::exchange(states_, {}); }
     std::vector<Edge> take_edges() { return std::exchange(edges_, {}); }
+    /// Of every pin, Edge::wire being 8 * port + bit.
+    std::vector<Edge> take_pin_edges() { return std::exchange(pin_edges_, {}); }
+    std::vector<Sample> take_samples() { return std::exchange(samples_, {}); }
     std::vector<Octet> take_octets() { return std::exchange(octets_, {}); }
 
     std::vector<Scan> scans;
@@ -154,6 +174,7 @@ class Run
     static void on_sample(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at);
     static void on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at);
     static void on_edge(void* ctx, bool level, emu_time_t at);
+    static void on_pin_edge(void* ctx, bool level, emu_time_t at);
     static void on_report(void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at);
     void wire_up();
     void navigate(const ins_nav_sample_t& sample, emu_time_t at);
@@ -185,10 +206,13 @@ class Run
     Scan pending_{};
     unsigned pending_channels_ = 0;
     std::array<Tap, traced.size()> taps_{};
+    std::array<Tap, pins> pin_taps_{};
     std::vector<Scored> states_;
     std::vector<Edge> edges_;
     std::vector<Octet> octets_;
     bool stop_at_octet_ = false;
+    std::vector<Edge> pin_edges_;
+    std::vector<Sample> samples_;
 };
 
 } // namespace libins

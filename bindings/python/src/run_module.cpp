@@ -2,6 +2,7 @@
 /// \brief  The Python module libins._run: motions, gyros and runs, over the C libraries. SPDX-License-Identifier: MIT
 #include "board_module.hpp"
 #include "ins/coning.h"
+#include "observe_module.hpp"
 #include "run.hpp"
 #include <memory>
 #include <nanobind/nanobind.h>
@@ -320,6 +321,7 @@ NB_MODULE(_run, m)
         .def_rw("trace", &RunConfig::trace)
         .def_rw("six", &RunConfig::six)
         .def_rw("listen", &RunConfig::listen)
+        .def_rw("seen", &RunConfig::seen)
         .def(
             "add_segment",
             [](RunConfig& self, uint16_t address, const nb::bytes& octets) {
@@ -352,6 +354,7 @@ NB_MODULE(_run, m)
             "send",
             [](Run& self, const nb::bytes& octets) { return self.send(std::string(octets.c_str(), octets.size())); },
             "octets"_a)
+        .def("level", &Run::level, "wire"_a)
         .def("scans", scans)
         .def("counters", counters)
         .def("reports",
@@ -370,4 +373,5 @@ NB_MODULE(_run, m)
                  }
                  return list;
              });
+    libins::bind_observer(m);
 }

@@ -56,6 +56,8 @@ EMU_API void acq_board_destroy(acq_board_t* self);
 EMU_API mcs51_stop_t acq_board_run(acq_board_t* self, emu_time_t t);
 /// The board's own CPU, to load and to inspect.
 EMU_API mcs51_t* acq_board_cpu(acq_board_t* self);
+/// Instant of a cycle of the present, also inside callbacks.
+EMU_API emu_time_t acq_board_time(acq_board_t* self, uint64_t cycle);
 /// By pin, "P1.4", or by what is on it: "EOC", "I/O CLOCK", "DATA IN", "DATA OUT", "/CS", of a further converter "/CS 2"; "TXD", "RXD".
 /// NULL if there is none.
 EMU_API emu_wire_t* acq_board_wire(acq_board_t* self, const char* name);

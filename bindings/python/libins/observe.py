@@ -1,0 +1,175 @@
+"""Looking at firmware while it runs: --vcd, --itrace, --profile, --lcov and --report of `ins run`, put together."""
+
+import contextlib
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TextIO
+
+import numpy as np
+
+from libins import _run, coverage, itrace, profile, vcd
+from libins.cdb import ADDRESS_END, Cdb
+from libins.cdb import load as load_cdb
+from libins.disasm import SFR
+from libins.errors import UsageError
+from libins.scenario import Scenario
+
+
+@dataclass
+class Wanted:
+    """What to look at, and where to write it. None: not asked for."""
+
+    vcd: Path | None = None
+    sfrs: list[str] = field(default_factory=list)
+    analog_us: float = 1000.0
+    itrace: Path | None = None
+    lcov: Path | None = None
+    profile: bool = False
+    cdb: Path | None = None
+    """The .cdb; without it, the one beside the image."""
+    source: list[Path] = field(default_factory=list)
+    """Folders with the firmware's C files."""
+
+    def anything(self) -> bool:
+        """Whether the run has to be looked at."""
+        return bool(self.vcd or self.itrace or self.lcov or self.profile)
+
+
+class _File:
+    """A text file that grows while the run goes on and gets its name when it is whole."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._part = path.with_name(path.name + ".part")
+        try:
+            self.text: TextIO = self._part.open("w", encoding="utf-8")
+        except OSError as error:
+            raise UsageError(f"{path}: cannot be written: {error.strerror}; choose another place") from error
+
+    def done(self) -> None:
+        self.text.close()
+        self._part.replace(self._path)
+
+    def drop(self) -> None:
+        if not self.text.closed:
+            self.text.close()
+            self._part.unlink()
+
+
+def _code(run: Any) -> Callable[[int], int]:
+    """Code memory by address, as it is now."""
+    return bytes(run.read("code", 0, ADDRESS_END)).__getitem__
+
+
+class Observation:
+    """Of one run: begin() at its begin, slice() after each piece of it, end() at its end, close() in any case."""
+
+    def __init__(self, scenario: Scenario, wanted: Wanted) -> None:
+        """Raises UsageError for what cannot be looked at."""
+        self._scenario = scenario
+        self._wanted = wanted
+        self._table = self._debug_information()
+        for name in wanted.sfrs:
+            if name not in SFR:
+                raise UsageError(f"--vcd-sfr {name}: is none of {', '.join(sorted(SFR))}")
+        if not 1.0 <= wanted.analog_us <= 1e9:
+            raise UsageError(f"--vcd-analog-us {wanted.analog_us:g}: must lie in 1 .. 1e9")
+        self._paths: dict[str, Path] = {}
+        if wanted.lcov and self._table:
+            beside = [scenario.firmware.resolve().parent, self._table.path.resolve().parent]
+            self._paths = coverage.sources(self._table.files(), wanted.source or beside)
+        self._files: list[_File] = []
+        self._dump: vcd.Dump | None = None
+        self._trace: itrace.Writer | None = None
+        self._observer: Any = None
+
+    def _debug_information(self) -> Cdb | None:
+        beside = self._scenario.firmware.with_suffix(".cdb")
+        path = self._wanted.cdb or (beside if beside.exists() else None)
+        if path is not None:
+            return load_cdb(path)
+        if self._wanted.lcov or self._wanted.profile:
+            raise UsageError(
+                f"{self._scenario.firmware}: no {beside.name} beside it; build the image with sdcc --debug, "
+                "or give its .cdb with --cdb"
+            )
+        return None
+
+    def begin(self, run: Any) -> None:
+        """At the run's begin."""
+        w = self._wanted
+        code = _code(run)
+        if self._table:
+            self._table.correct_lines(code)
+        watch: list[int] = []
+        if w.vcd:
+            settings = vcd.Settings(
+                self._scenario.tables.link.baud,
+                sfrs=w.sfrs,
+                analog_us=w.analog_us,
+                interrupt_name=lambda irq: profile.interrupt_name(self._table, irq),
+            )
+            watch = [SFR[name] for name in w.sfrs]
+            self._dump = vcd.Dump(self._open(w.vcd), run, settings)
+        if w.itrace:
+            self._trace = itrace.Writer(self._open(w.itrace), code)
+        if w.lcov or w.profile:
+            _run.cover(run)
+        if w.vcd or w.itrace or w.profile:
+            entries = [f.begin for f in self._table.functions] if self._table else []
+            self._observer = _run.Observer(run, entries, watch, trace=w.itrace is not None)
+
+    def _open(self, path: Path) -> TextIO:
+        self._files.append(_File(path))
+        return self._files[-1].text
+
+    def slice(self, run: Any, edges: Any) -> None:
+        """The edges of the traced wires since the last call."""
+        changes = self._observer.take_changes() if self._observer else np.empty((0, 3), np.int64)
+        if self._dump:
+            self._dump.slice(edges, changes)
+        if self._trace:
+            self._trace.slice(self._observer.take_trace())
+
+    def end(self, run: Any) -> dict[str, Any]:
+        """The summary's `observed`; files get their names."""
+        for writer in (self._dump, self._trace):
+            if writer is not None:
+                writer.close()
+        for file in self._files:
+            file.done()
+        observed: dict[str, Any] = {}
+        if self._observer is not None:
+            observed |= self._profile(run)
+        if self._table and (self._wanted.lcov or self._wanted.profile):
+            files = coverage.measure(self._table, _run.coverage(run), _code(run))
+            observed["coverage"] = coverage.totals(files)
+            if self._wanted.lcov:
+                lcov = _File(self._wanted.lcov)
+                lcov.text.write(coverage.lcov(files, self._paths))
+                lcov.done()
+        return observed
+
+    def _profile(self, run: Any) -> dict[str, Any]:
+        observer = self._observer
+        observer.settle()
+        named = profile.functions(self._table, observer) if self._table else {}
+        executing = int(observer.cycles().sum())
+        return {
+            "cycles": executing + observer.asleep,
+            "asleep": observer.asleep,
+            "elsewhere": executing - sum(row["cycles"] for row in named.values()),
+            "functions": named,
+            "lines": profile.lines(self._table, observer) if self._table else [],
+            "interrupts": profile.interrupts(self._table, observer),
+            "stack": profile.stack(self._table, observer),
+            "sfrs": profile.sfrs(observer),
+            "sampling": profile.sampling(run.scans(), self._scenario.tables.clock_hz),
+        }
+
+    def close(self) -> None:
+        """Take away what an interrupted run has left."""
+        for file in self._files:
+            with contextlib.suppress(OSError):
+                file.drop()

@@ -1,0 +1,56 @@
+"""What `ins run` offers to look at firmware: the command line's part of it."""
+
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from libins.scenario import Scenario
+
+if TYPE_CHECKING:
+    from libins.observe import Observation
+
+ANALOG_US = 1000.0
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """To `ins run`."""
+    group = command.add_argument_group("looking at the firmware", "docs/seeing.md; * needs SDCC's .cdb")
+    group.add_argument("--vcd", type=Path, metavar="F", help="write pins, nets, volts, octets and interrupts (GTKWave)")
+    group.add_argument("--vcd-sfr", action="append", default=[], metavar="NAME", help="with --vcd: an SFR, e.g. TCON")
+    group.add_argument(
+        "--vcd-analog-us",
+        type=float,
+        default=ANALOG_US,
+        metavar="US",
+        help=f"with --vcd: grid of the volts ({ANALOG_US:g})",
+    )
+    group.add_argument("--itrace", type=Path, metavar="F", help="write every instruction and the registers it changed")
+    group.add_argument("--profile", type=Path, metavar="F", help="*write where the cycles went ('-': standard output)")
+    group.add_argument("--lcov", type=Path, metavar="F.info", help="*write line and branch coverage for genhtml")
+    group.add_argument("--cdb", type=Path, metavar="F.cdb", help="the .cdb, if it is not beside the image")
+    group.add_argument(
+        "--source", type=Path, action="append", default=[], metavar="DIR", help="where the firmware's C files are"
+    )
+
+
+def observation(loaded: Scenario, options: argparse.Namespace, place: Callable[[Path], Path]) -> "Observation | None":
+    """What was asked for, or None; `place` gives a file its name in this run. Raises UsageError."""
+    if not (options.vcd or options.itrace or options.lcov or options.profile):
+        return None
+    from libins import observe  # pyvcd only where it is needed
+
+    def placed(path: Path | None) -> Path | None:
+        return None if path is None else place(path)
+
+    wanted = observe.Wanted(
+        vcd=placed(options.vcd),
+        sfrs=options.vcd_sfr,
+        analog_us=options.vcd_analog_us,
+        itrace=placed(options.itrace),
+        lcov=placed(options.lcov),
+        profile=options.profile is not None,
+        cdb=options.cdb,
+        source=options.source,
+    )
+    return observe.Observation(loaded, wanted)
