@@ -4,7 +4,7 @@
 /// A flag that is up at cycle t is polled in the cycle that begins at t; the vector is taken at the first instruction boundary after it
 /// unless the instruction that ends there is RETI or wrote IE or IP. The hardware LCALL takes 2 cycles: 3 to 8 from flag to handler.
 /// SPDX-License-Identifier: MIT
-#include "mcs51_internal.h"
+#include "engine.h"
 
 void mcs51_raise(mcs51_t* self, unsigned irq, unsigned sfr, uint8_t flag, uint64_t at)
 {
@@ -90,7 +90,7 @@ bool mcs51_interrupt(mcs51_t* self, uint64_t now)
     {
         self->observer.vector(self->observer.ctx, irq, (uint16_t)self->pc, now);
     }
-    self->left -= 2;
+    self->budget -= MCS51_SPENT(2, 0);
     push(self, self->pc & 0xFFu);
     push(self, self->pc >> 8);
     self->pc = 8u * irq + 3u;

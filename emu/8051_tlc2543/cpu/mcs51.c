@@ -1,11 +1,11 @@
 /// \file   mcs51.c
 /// \brief  The part as a whole: creation, the run loop, idle, power-down, debug access. Atmel 2487D.
 /// SPDX-License-Identifier: MIT
-#include "mcs51_internal.h"
+#include "engine.h"
 #include <stdlib.h>
 #include <string.h>
 
-#define LONGEST_SLICE 0x40000000u ///< cycles; `left` has 32 bits
+#define LONGEST_SLICE 0x40000000u ///< cycles; `left` has 32 bits, and so has the count of instructions
 
 mcs51_t* mcs51_create(const mcs51_config_t* config)
 {
@@ -17,12 +17,14 @@ mcs51_t* mcs51_create(const mcs51_config_t* config)
     self->config = *config;
     memset(self->outside, 0xFF, sizeof self->outside);
     memset(self->out, 0xFF, sizeof self->out);
-    if (mcs51_memory_create(self) != 0)
+    if (mcs51_memory_create(self) != 0 ||
+        !(self->entries = malloc((self->code_octets + MCS51_BEYOND) * sizeof *self->entries)))
     {
         mcs51_destroy(self);
         return NULL;
     }
     self->rst_due = MCS51_NEVER;
+    mcs51_forget(self);
     mcs51_reset(self, true);
     return self;
 }
@@ -32,6 +34,7 @@ void mcs51_destroy(mcs51_t* self)
     if (self)
     {
         free(self->xdata);
+        free(self->entries);
         free(self);
     }
 }
@@ -52,12 +55,12 @@ void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const ch
 
 uint64_t mcs51_cycle(const mcs51_t* self)
 {
-    return self->horizon - (uint64_t)(int64_t)self->left;
+    return self->horizon - (uint64_t)(int64_t)mcs51_left(self);
 }
 
 uint64_t mcs51_instructions(const mcs51_t* self)
 {
-    return self->instructions;
+    return self->instructions + (uint32_t)self->budget;
 }
 
 uint64_t mcs51_interrupts(const mcs51_t* self)
@@ -67,11 +70,11 @@ uint64_t mcs51_interrupts(const mcs51_t* self)
 
 void mcs51_look_at(mcs51_t* self, uint64_t cycle)
 {
-    if (cycle < self->horizon)
+    if (cycle <= self->horizon)
     {
         const uint64_t now = mcs51_cycle(self);
-        self->horizon = cycle;
-        self->left = cycle > now ? (int32_t)(cycle - now) : -(int32_t)(now - cycle);
+        self->horizon = cycle - 1u;
+        mcs51_set_left(self, (int64_t)(cycle - now) - 1);
     }
 }
 
@@ -95,8 +98,9 @@ static void set_horizon(mcs51_t* self, uint64_t now)
     next = earlier(next, mcs51_interrupt_next(self, now));
     next = earlier(next, earlier(self->periph_at, earlier(self->wdt_due, self->rst_due)));
     next = earlier(next, mcs51_overflow_next(self));
-    self->horizon = next;
-    self->left = next > now ? (int32_t)(next - now) : 0;
+    self->horizon = (next > now ? next : now) - 1u;
+    self->instructions += (uint32_t)self->budget;
+    self->budget = (int64_t)(self->horizon - now) * (INT64_C(1) << 32);
 }
 
 /// The oscillator stands still: nothing counts for that long.
@@ -106,8 +110,8 @@ static void freeze(mcs51_t* self, uint64_t now, uint64_t until)
     self->frozen += until - now;
     self->wdt_due += self->wdt_due == MCS51_NEVER ? 0 : until - now;
     self->pins_due += self->pins_due == MCS51_NEVER ? 0 : until - now;
-    self->horizon = until;
-    self->left = 0;
+    self->horizon = until - 1u;
+    mcs51_set_left(self, -1);
     mcs51_plan(self);
 }
 
@@ -146,7 +150,7 @@ static mcs51_stop_t run(mcs51_t* self)
         if (self->in_reset)
         {
             set_horizon(self, now);
-            self->left = 0;
+            mcs51_set_left(self, -1);
             continue;
         }
         if (now >= self->wdt_due)
@@ -163,18 +167,18 @@ static mcs51_stop_t run(mcs51_t* self)
         {
             if ((self->mem[AUXR] & AUXR_WDIDLE) && self->wdt_due != MCS51_NEVER)
             {
-                self->wdt_due += self->horizon - now;
+                self->wdt_due += self->horizon + 1u - now;
             }
-            self->left = 0;
+            mcs51_set_left(self, -1);
             continue;
         }
-        if (self->watched)
+        if (!self->observed)
         {
-            mcs51_plain(self);
+            mcs51_fast(self);
         }
-        else
+        if (!self->stop && !self->self_jump)
         {
-            mcs51_engine(self);
+            mcs51_plain(self, false);
         }
         if (self->self_jump)
         {
@@ -185,9 +189,8 @@ static mcs51_stop_t run(mcs51_t* self)
             {
                 return MCS51_HALTED;
             }
-            const int32_t turns = self->watched ? 1 : (self->left + 1) / 2; // 2 cycles each
-            self->left -= 2 * turns;
-            self->instructions += (uint64_t)turns;
+            const bool each = self->observer.step || (self->marks[self->pc] & MARK_BREAK);
+            self->budget -= (each ? 1 : mcs51_left(self) / 2 + 1) * MCS51_SPENT(2, 1);
         }
     }
 }

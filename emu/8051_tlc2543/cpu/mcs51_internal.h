@@ -1,8 +1,8 @@
 /// \file   cpu/mcs51_internal.h
 /// \brief  State of one part and what its files offer each other. Not installed.
 ///
-/// Time: now = horizon - left. The engine only counts `left` down and comes back when it is spent; `horizon` is the next cycle at
-/// which anything can happen by itself. An instruction reads and writes SFRs and pins at its end (Intel: latch at S6P2 of the last
+/// Time: now = horizon - left. The engines only count `left` down and come back when it is below 0; `horizon` is the last cycle
+/// before anything can happen by itself. `budget` holds left, and below it the instructions that were executed meanwhile. An instruction reads and writes SFRs and pins at its end (Intel: latch at S6P2 of the last
 /// cycle, timers step at S3P1), so inside one, now is its end.
 /// SPDX-License-Identifier: MIT
 #ifndef MCS51_INTERNAL_H_INCLUDED
@@ -52,17 +52,6 @@ typedef struct mcs51_part_info_t
     const char *no_ram, *no_sfr, *no_code;
 } mcs51_part_info_t;
 
-#define NO_PC 0x10000u ///< no address
-
-/// mcs51_t.marks, by address of an instruction.
-enum
-{
-    MARK_BREAK = 1,
-    MARK_COVERED = 2,
-    MARK_NOT_TAKEN = 4,
-    MARK_TAKEN = 8
-};
-
 typedef enum mcs51_reset_t
 {
     RESET_NONE,
@@ -96,11 +85,19 @@ typedef struct uart_t
     uart_rx_state_t rx_state;
 } uart_t;
 
+/// Where the fast engine goes on, if its handlers return; ip NULL: back to the run loop.
+typedef struct mcs51_next_t
+{
+    const struct entry_t* ip;
+    uint32_t a, cy, fx;
+    uint8_t* bank;
+} mcs51_next_t;
+
 struct mcs51_t
 {
     mcs51_config_t config;
     uint64_t horizon, until, instructions, interrupts;
-    int32_t left;
+    int64_t budget; ///< left * 2^32 + instructions that `instructions` does not hold
     uint32_t pc;
     uint32_t cy; ///< 0 or 1
     uint32_t fx; ///< a ^ x ^ result of the last sum: AC is bit 4, OV is bit 7 ^ bit 8
@@ -140,19 +137,26 @@ struct mcs51_t
     uint32_t breaks;    ///< breakpoints set
     uint32_t passed_pc; ///< the run stopped at this breakpoint: the instruction is executed next time; NO_PC
     bool covering;
-    bool watched; ///< an observer, a breakpoint or coverage: the plain engine runs
-    bool stop;    ///< return MCS51_STOPPED at the next boundary
+    bool watched;  ///< by an observer, a breakpoint or for coverage
+    bool observed; ///< the plain engine runs
+    bool stop;     ///< return MCS51_STOPPED at the next boundary
+    bool no_spin;
+    struct entry_t* entries; ///< of the fast engine, by address, and MCS51_BEYOND more
+    mcs51_next_t next;
     uint8_t marks[65536];
     uint8_t code[65536];
 };
 
-/// Engine: execute until left <= 0, or until a jump to itself is reached (self_jump; it has not been executed).
-void mcs51_engine(mcs51_t* self);
-/// The same one instruction after the other, watched; also until a breakpoint or observer stops it (stop).
-void mcs51_plain(mcs51_t* self);
-/// An instruction at pc is about to be executed. \return false: stop before it.
-bool mcs51_enter(mcs51_t* self);
-void mcs51_seen(mcs51_t* self, mcs51_space_t space, uint16_t address, uint8_t value, bool write);
+/// In units of budget: cycles, and instructions executed in them.
+#define MCS51_SPENT(cycles, n) ((int64_t)(cycles) * (INT64_C(1) << 32) - (int64_t)(n))
+static inline int32_t mcs51_left(const mcs51_t* self)
+{
+    return (int32_t)(self->budget >> 32);
+}
+static inline void mcs51_set_left(mcs51_t* self, int64_t left)
+{
+    self->budget = left * (INT64_C(1) << 32) + (uint32_t)self->budget;
+}
 
 /// An SFR is plain memory to the engine while left > limit.
 extern const int32_t mcs51_read_limit[256], mcs51_latch_limit[256], mcs51_write_limit[256];
@@ -169,7 +173,6 @@ uint8_t mcs51_absent_code(mcs51_t* self, unsigned address);
 uint8_t mcs51_xread(mcs51_t* self, unsigned address);
 void mcs51_xwrite(mcs51_t* self, unsigned address, uint8_t value);
 void mcs51_push_beyond(mcs51_t* self, unsigned address, uint8_t value); ///< the stack is past stack_top
-void mcs51_code_changed(mcs51_t* self, unsigned address); ///< from code memory: what an engine made of it is void
 void mcs51_reserved_opcode(mcs51_t* self);
 void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const char* text, uint32_t detail);
 
@@ -195,6 +198,7 @@ void mcs51_timers_sync(mcs51_t* self, uint64_t t);
 void mcs51_timers_fell(mcs51_t* self, uint8_t fell); ///< falls on T0, T1 were sampled
 /// First boundary that an overflow which requests an interrupt can bring; overflow_at becomes the cycle of the overflow.
 uint64_t mcs51_overflow_next(mcs51_t* self);
+uint64_t mcs51_timer_next(const mcs51_t* self, unsigned n); ///< next overflow that sets TFn
 /// \return overflows within k counts; the first is after *first.
 uint64_t mcs51_advance(mcs51_counter_t* c, uint64_t k, uint64_t* first);
 uint64_t mcs51_t1_time(const mcs51_t* self, uint64_t number); ///< cycle of T1's overflow of that number

@@ -2,7 +2,7 @@
 /// \brief  The parts, and what memory each has: flash and external code, internal RAM, external RAM. Atmel 2487D, 1919D.
 /// SPDX-License-Identifier: MIT
 #include "emu/random.h"
-#include "mcs51_internal.h"
+#include "engine.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -68,10 +68,7 @@ int mcs51_load(mcs51_t* self, uint16_t address, const uint8_t* octets, size_t co
         return -1;
     }
     memcpy(self->code + address, octets, count);
-    for (size_t i = 0; i < count; ++i)
-    {
-        mcs51_code_changed(self, address + (unsigned)i);
-    }
+    mcs51_forget(self);
     return 0;
 }
 
@@ -170,7 +167,7 @@ void mcs51_set_code(mcs51_t* self, uint16_t address, uint8_t value)
     if (address < self->code_octets)
     {
         self->code[address] = value;
-        mcs51_code_changed(self, address);
+        mcs51_forget(self);
     }
 }
 

@@ -1,56 +1,66 @@
 /// \file   plain.c
 /// \brief  The engine that looks at each instruction: one switch over ops.h, with observers, breakpoints and coverage.
 /// SPDX-License-Identifier: MIT
-#include "mcs51_internal.h"
+#include "engine.h"
 
 /// The state in locals, as functions outside the engine expect it, and back.
-#define OUT (self->pc = pc, self->left = left, self->cy = cy, self->fx = fx)
-#define IN  (left = self->left, cy = self->cy, fx = self->fx, bank = mem + (mem[PSW] & 0x18u))
+#define OUT (self->pc = pc, self->budget = budget, self->cy = cy, self->fx = fx)
+#define IN  (budget = self->budget, cy = self->cy, fx = self->fx, bank = mem + (mem[PSW] & 0x18u))
 
 #define PC   pc
 #define A    mem[ACC]
 #define CY   cy
 #define FX   fx
 #define RI   bank[N]
-#define O1   ((unsigned)code[U16(pc - LENGTH + 1u)])
-#define O2   ((unsigned)code[U16(pc - LENGTH + 2u)])
+#define O1   ((unsigned)code[U16(pc - OCTETS + 1u)])
+#define O2   ((unsigned)code[U16(pc - OCTETS + 2u)])
+#define BIT  BIT_BYTE(O1)
+#define MASK BIT_MASK(O1)
 #define DPTR (mem[self->dptr] | (unsigned)mem[self->dptr + 1u] << 8)
 
-#define OP(opcode, length, cycles, ...)                                                                                \
-    case (opcode):                                                                                                     \
+#define JOP(opcode, kind, octets, cycles, ...)                                                                         \
+    case 0x##opcode:                                                                                                   \
     {                                                                                                                  \
         enum                                                                                                           \
         {                                                                                                              \
-            LENGTH = (length),                                                                                         \
-            CYCLES = (cycles)                                                                                          \
+            OCTETS = (octets),                                                                                         \
+            CYCLES = (cycles),                                                                                         \
+            KIND = (kind)                                                                                              \
         };                                                                                                             \
-        pc += (length);                                                                                                \
-        left -= (cycles);                                                                                              \
+        pc += (octets);                                                                                                \
+        budget -= MCS51_SPENT(CYCLES, 1);                                                                              \
         __VA_ARGS__;                                                                                                   \
     }                                                                                                                  \
     break;
-#define OPN(opcode, n, length, cycles, ...) OP((opcode) + (n), length, cycles, enum {N = (n)}; __VA_ARGS__)
-#define OP2(opcode, ...)                    OPN(opcode, 0, __VA_ARGS__) OPN(opcode, 1, __VA_ARGS__)
-#define OP8(opcode, ...)                                                                                               \
-    OP2(opcode, __VA_ARGS__)                                                                                           \
-    OPN(opcode, 2, __VA_ARGS__)                                                                                        \
-    OPN(opcode, 3, __VA_ARGS__)                                                                                        \
-    OPN(opcode, 4, __VA_ARGS__)                                                                                        \
-    OPN(opcode, 5, __VA_ARGS__)                                                                                        \
-    OPN(opcode, 6, __VA_ARGS__)                                                                                        \
-    OPN(opcode, 7, __VA_ARGS__)
-#define PAGE_TARGET ((pc & 0xF800u) | (unsigned)N << 8 | O1)
-#define OP_PAGE(opcode, length, cycles, ...)                                                                           \
-    OP_IN_PAGE(opcode, 0, length, cycles, __VA_ARGS__)                                                                 \
-    OP_IN_PAGE(opcode, 1, length, cycles, __VA_ARGS__)                                                                 \
-    OP_IN_PAGE(opcode, 2, length, cycles, __VA_ARGS__)                                                                 \
-    OP_IN_PAGE(opcode, 3, length, cycles, __VA_ARGS__)                                                                 \
-    OP_IN_PAGE(opcode, 4, length, cycles, __VA_ARGS__)                                                                 \
-    OP_IN_PAGE(opcode, 5, length, cycles, __VA_ARGS__)                                                                 \
-    OP_IN_PAGE(opcode, 6, length, cycles, __VA_ARGS__)                                                                 \
-    OP_IN_PAGE(opcode, 7, length, cycles, __VA_ARGS__)
-#define OP_IN_PAGE(opcode, n, length, cycles, ...)                                                                     \
-    OP((opcode) + 0x20 * (n), length, cycles, enum {N = (n)}; __VA_ARGS__)
+#define OP(opcode, ...)           JOP(opcode, NOWHERE, __VA_ARGS__)
+#define OPD(opcode, access, ...)  JOP(opcode, NOWHERE, __VA_ARGS__)
+#define JOPD(opcode, access, ...) JOP(opcode, BRANCH, __VA_ARGS__)
+
+#define TARGET mcs51_target(KIND, pc, code[U16(pc - OCTETS)], O1, code[U16(pc - 1u)])
+#define GO     (pc = TARGET);
+#define GO_IF(condition)                                                                                               \
+    {                                                                                                                  \
+        const bool taken_ = (condition) != 0;                                                                          \
+        if (self->covering)                                                                                            \
+        {                                                                                                              \
+            self->marks[U16(pc - OCTETS)] |= taken_ ? MARK_TAKEN : MARK_NOT_TAKEN;                                     \
+        }                                                                                                              \
+        if (taken_)                                                                                                    \
+        {                                                                                                              \
+            GO                                                                                                         \
+        }                                                                                                              \
+    }
+#define GO_TO(address) (pc = (address));
+#define SPIN_IF_SELF                                                                                                   \
+    if (TARGET == pc - OCTETS)                                                                                         \
+    {                                                                                                                  \
+        pc -= OCTETS;                                                                                                  \
+        budget += MCS51_SPENT(CYCLES, 1);                                                                              \
+        self->self_jump = true;                                                                                        \
+        goto leave;                                                                                                    \
+    }
+#define ROOM(n)
+#define HOLDS(n)
 
 /// A callback may shorten the run: it sees `left`, and can change it.
 #define SEEN(space, address, value, write)                                                                             \
@@ -58,13 +68,13 @@
     {                                                                                                                  \
         OUT;                                                                                                           \
         mcs51_seen(self, (space), U16(address), U8(value), (write));                                                   \
-        left = self->left;                                                                                             \
+        budget = self->budget;                                                                                         \
     }
 #define SPACE(d) ((d) < 0x80u ? MCS51_IRAM : MCS51_SFR)
 #define READ_BY(limit, function, x, d)                                                                                 \
     {                                                                                                                  \
         const unsigned d_ = (d);                                                                                       \
-        if (left > limit[d_])                                                                                          \
+        if ((int32_t)(budget >> 32) > limit[d_])                                                                       \
         {                                                                                                              \
             x = mem[d_];                                                                                               \
         }                                                                                                              \
@@ -72,7 +82,7 @@
         {                                                                                                              \
             OUT;                                                                                                       \
             x = function(self, d_);                                                                                    \
-            left = self->left;                                                                                         \
+            budget = self->budget;                                                                                     \
         }                                                                                                              \
         SEEN(SPACE(d_), d_, x, false)                                                                                  \
     }
@@ -81,7 +91,7 @@
 #define WRITE(d, v)                                                                                                    \
     {                                                                                                                  \
         const unsigned w_ = (d), written_ = (v);                                                                       \
-        if (left > mcs51_write_limit[w_])                                                                              \
+        if ((int32_t)(budget >> 32) > mcs51_write_limit[w_])                                                           \
         {                                                                                                              \
             mem[w_] = U8(written_);                                                                                    \
         }                                                                                                              \
@@ -114,7 +124,7 @@
         {                                                                                                              \
             OUT;                                                                                                       \
             x = mcs51_absent_ram(self, i_);                                                                            \
-            left = self->left;                                                                                         \
+            budget = self->budget;                                                                                     \
         }                                                                                                              \
         SEEN(MCS51_IRAM, i_, x, false)                                                                                 \
     }
@@ -129,7 +139,7 @@
         {                                                                                                              \
             OUT;                                                                                                       \
             mcs51_absent_ram(self, i_);                                                                                \
-            left = self->left;                                                                                         \
+            budget = self->budget;                                                                                     \
         }                                                                                                              \
         SEEN(MCS51_IRAM, i_, stored_, true)                                                                            \
     }
@@ -144,7 +154,7 @@
         {                                                                                                              \
             OUT;                                                                                                       \
             mcs51_push_beyond(self, p_, U8(pushed_));                                                                  \
-            left = self->left;                                                                                         \
+            budget = self->budget;                                                                                     \
         }                                                                                                              \
         SEEN(MCS51_IRAM, p_, pushed_, true)                                                                            \
     }
@@ -159,7 +169,7 @@
         {                                                                                                              \
             OUT;                                                                                                       \
             x = mcs51_absent_code(self, a_);                                                                           \
-            left = self->left;                                                                                         \
+            budget = self->budget;                                                                                     \
         }                                                                                                              \
         SEEN(MCS51_CODE, a_, x, false)                                                                                 \
     }
@@ -168,7 +178,7 @@
         const unsigned a_ = (a);                                                                                       \
         OUT;                                                                                                           \
         x = mcs51_xread(self, a_);                                                                                     \
-        left = self->left;                                                                                             \
+        budget = self->budget;                                                                                         \
         SEEN(MCS51_XDATA, a_, x, false)                                                                                \
     }
 #define XWRITE(a)                                                                                                      \
@@ -176,7 +186,7 @@
         const unsigned a_ = (a);                                                                                       \
         OUT;                                                                                                           \
         mcs51_xwrite(self, a_, A);                                                                                     \
-        left = self->left;                                                                                             \
+        budget = self->budget;                                                                                         \
         SEEN(MCS51_XDATA, a_, A, true)                                                                                 \
     }
 #define DPTR_SET(v)                                                                                                    \
@@ -187,40 +197,19 @@
         SEEN(MCS51_SFR, self->dptr, v_, true)                                                                          \
         SEEN(MCS51_SFR, self->dptr + 1u, v_ >> 8, true)                                                                \
     }
-#define RETI_DONE (OUT, mcs51_reti(self), left = self->left)
-#define RESERVED  (OUT, mcs51_reserved_opcode(self), left = self->left)
-#define SPIN_IF(condition)                                                                                             \
-    if (condition)                                                                                                     \
-    {                                                                                                                  \
-        pc -= LENGTH;                                                                                                  \
-        left += CYCLES;                                                                                                \
-        self->self_jump = true;                                                                                        \
-        goto leave;                                                                                                    \
-    }
-#define BRANCH_IF(condition, o)                                                                                        \
-    {                                                                                                                  \
-        const bool taken_ = (condition) != 0;                                                                          \
-        if (self->covering)                                                                                            \
-        {                                                                                                              \
-            *mark |= taken_ ? MARK_TAKEN : MARK_NOT_TAKEN;                                                             \
-        }                                                                                                              \
-        if (taken_)                                                                                                    \
-        {                                                                                                              \
-            BRANCH(o);                                                                                                 \
-        }                                                                                                              \
-    }
+#define RETI_DONE (OUT, mcs51_reti(self), budget = self->budget);
+#define RESERVED  (OUT, mcs51_reserved_opcode(self), budget = self->budget)
 
-void mcs51_plain(mcs51_t* self)
+void mcs51_plain(mcs51_t* self, bool one)
 {
     uint8_t* const mem = self->mem;
     const uint8_t* const code = self->code;
     uint8_t* bank;
-    uint8_t* mark;
     uint32_t pc = self->pc, cy, fx;
-    int32_t left;
+    int64_t budget;
 
     IN;
-    while (left > 0)
+    while (budget >= 0)
     {
         pc &= 0xFFFFu;
         if (self->watched)
@@ -230,14 +219,16 @@ void mcs51_plain(mcs51_t* self)
             {
                 break;
             }
-            left = self->left;
+            budget = self->budget;
         }
-        mark = &self->marks[pc];
         switch (code[pc])
         {
 #include "ops.h"
         }
-        ++self->instructions;
+        if (one)
+        {
+            break;
+        }
     }
 leave:
     OUT;

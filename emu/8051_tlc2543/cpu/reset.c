@@ -4,7 +4,7 @@
 /// RST is taken after two machine cycles high, at once where the oscillator stands; [U] its start-up takes no time. The part leaves
 /// reset in the cycle in which RST falls. Callbacks may ask for a reset at any time: it comes at the next instruction boundary.
 /// SPDX-License-Identifier: MIT
-#include "mcs51_internal.h"
+#include "engine.h"
 #include <string.h>
 
 #define RST_CYCLES 2u ///< RST must be high for as long
@@ -142,7 +142,7 @@ void mcs51_watchdog_reset(mcs51_t* self)
     {
         drive_rst(self, true, now);
     }
-    self->left -= (int32_t)MCS51_WDT_RESET;
+    self->budget -= MCS51_SPENT(MCS51_WDT_RESET, 0);
     reset(self, false);
     if (told)
     {

@@ -7,7 +7,7 @@
 // An access is plain memory while left > limit. P: always. F: no event is due yet (registers that only scheduled events change).
 // S: never, there are side effects; also for addresses that the part does not have.
 #define P     INT32_MIN
-#define F     0
+#define F     (-1)
 #define S     INT32_MAX
 #define P8    P, P, P, P, P, P, P, P
 #define P64   P8, P8, P8, P8, P8, P8, P8, P8

@@ -1,12 +1,13 @@
 /// \file   watch.c
 /// \brief  What a user watches: observers, breakpoints, coverage.
 /// SPDX-License-Identifier: MIT
-#include "mcs51_internal.h"
+#include "engine.h"
 
 static void set_watched(mcs51_t* self)
 {
     const mcs51_observer_t* const o = &self->observer;
-    self->watched = o->step || o->access || self->breaks || self->covering;
+    self->observed = o->step || o->access;
+    self->watched = self->observed || self->breaks || self->covering;
     mcs51_look_at(self, mcs51_cycle(self)); // the other engine goes on
 }
 
@@ -33,6 +34,7 @@ int mcs51_set_break(mcs51_t* self, uint16_t pc, bool on)
     {
         *mark ^= MARK_BREAK;
         self->breaks += on ? 1u : UINT32_MAX;
+        mcs51_choose(self, pc);
         set_watched(self);
     }
     return 0;
@@ -48,6 +50,7 @@ void mcs51_cover(mcs51_t* self, bool on)
         }
     }
     self->covering = on;
+    mcs51_forget(self);
     set_watched(self);
 }
 
@@ -59,6 +62,12 @@ bool mcs51_covered(const mcs51_t* self, uint16_t pc)
 unsigned mcs51_branches(const mcs51_t* self, uint16_t pc)
 {
     return (self->marks[pc] & (unsigned)(MARK_NOT_TAKEN | MARK_TAKEN)) / MARK_NOT_TAKEN;
+}
+
+void mcs51_spin(mcs51_t* self, bool on)
+{
+    self->no_spin = !on;
+    mcs51_forget(self);
 }
 
 bool mcs51_enter(mcs51_t* self)

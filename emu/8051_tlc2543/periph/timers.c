@@ -152,7 +152,7 @@ void mcs51_timers_fell(mcs51_t* self, uint8_t fell)
     }
 }
 
-static uint64_t timer_next(const mcs51_t* self, unsigned n)
+uint64_t mcs51_timer_next(const mcs51_t* self, unsigned n)
 {
     if (n == 1 && split(self))
     {
@@ -169,7 +169,7 @@ uint64_t mcs51_overflow_next(mcs51_t* self)
     for (unsigned n = 0; n < 2 && (ie & IE_EA); ++n)
     {
         const uint64_t at =
-            (ie >> (1 + 2 * n) & 1u) && !(self->mem[TCON] & 0x20u << 2 * n) ? timer_next(self, n) : MCS51_NEVER;
+            (ie >> (1 + 2 * n) & 1u) && !(self->mem[TCON] & 0x20u << 2 * n) ? mcs51_timer_next(self, n) : MCS51_NEVER;
         if (at < self->overflow_at)
         {
             self->overflow_at = at;

@@ -32,6 +32,7 @@ struct bare_cpu
         emu_report_kind_t kind;
         std::string text;
         uint32_t detail;
+        emu_time_t at;
     };
 
     std::vector<edge> edges;
@@ -47,8 +48,8 @@ struct bare_cpu
             static_cast<bare_cpu*>(ctx)->edges.push_back({port, out, changed, cycle});
         };
         config.report.ctx = this;
-        config.report.put = [](void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t) {
-            static_cast<bare_cpu*>(ctx)->reports.push_back({kind, text, detail});
+        config.report.put = [](void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at) {
+            static_cast<bare_cpu*>(ctx)->reports.push_back({kind, text, detail, at});
         };
         cpu = mcs51_create(&config);
     }

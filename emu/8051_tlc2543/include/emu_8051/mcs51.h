@@ -105,6 +105,8 @@ EMU_API void mcs51_cover(mcs51_t* self, bool on);
 EMU_API bool mcs51_covered(const mcs51_t* self, uint16_t pc);
 /// Conditional branch at pc: bit 0: was not taken once, bit 1: was taken once. 0 for other instructions.
 EMU_API unsigned mcs51_branches(const mcs51_t* self, uint16_t pc);
+/// Waiting loops are passed over in one step unless this is off: nothing but speed depends on it. On at create.
+EMU_API void mcs51_spin(mcs51_t* self, bool on);
 
 #ifdef __cplusplus
 }

@@ -14,7 +14,8 @@ extern "C" {
 /// What the port drives changed. `out`: latch AND alternate output (TXD on P3.1): 1 = weak high (P0: Z), 0 = strong low.
 /// `changed`: bits of `out` that differ from before. Called within the instruction that wrote, cycle = its write; for TXD, the UART's cycle.
 typedef void (*mcs51_port_fn)(void* ctx, unsigned port, uint8_t out, uint8_t changed, uint64_t cycle);
-/// Before a pin is read, the outside may bring itself up to date (advance its events to `cycle`); may be NULL.
+/// Before a pin is read, the outside may bring itself up to date (advance its events to `cycle`); may be NULL. What it will do before
+/// until_cycle of the run it announces by mcs51_shorten(), or a loop that waits for a pin does not see it.
 typedef void (*mcs51_sync_fn)(void* ctx, uint64_t cycle);
 
 /// The watchdog drives RST, high and 98 oscillator periods later low (told in whole machine cycles), unless AUXR.DISRTO; may be NULL.

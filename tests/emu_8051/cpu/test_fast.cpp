@@ -1,0 +1,145 @@
+/// \file   test_fast.cpp
+/// \brief  The fast engine against the plain one: the same state, cycles, interrupts, edges and reports, whatever runs; what it costs.
+/// SPDX-License-Identifier: MIT
+#include "soup.hpp"
+#include <cstdlib>
+
+namespace
+{
+
+constexpr unsigned PROGRAMS = 400, BENCH_PROGRAMS = 6000, FIRST_SEED = 8051;
+constexpr uint64_t CYCLES = 20'000;
+
+/// One run of a program in slices, with pins that move between them and ways out of dead ends, all from one seed.
+class rig
+{
+  public:
+    bare_cpu b;
+    uint64_t stops = 0;
+
+    rig(const soup& program, unsigned seed) : rng_(seed)
+    {
+        EXPECT_EQ(mcs51_load(b.cpu, 0, program.image().data(), program.image().size()), 0);
+        start();
+    }
+    void slice()
+    {
+        const uint64_t until = b.now() + 1 + rng_() % (rng_() % 4 ? 300 : 3000);
+        mcs51_stop_t stop = MCS51_RAN;
+        while ((stop = b.run(until)) == MCS51_STOPPED)
+        {
+            ++stops;
+        }
+        mcs51_set_pins(b.cpu, rng_() % 4, static_cast<uint8_t>(rng_()), b.now());
+        if (stop != MCS51_RAN || rng_() % 8 == 0)
+        {
+            start();
+        }
+    }
+
+  private:
+    std::mt19937 rng_;
+
+    void start()
+    {
+        if (rng_() % 16 == 0)
+        {
+            mcs51_reset(b.cpu, false);
+        }
+        mcs51_set_pc(b.cpu, static_cast<uint16_t>(rng_() % soup::SIZE));
+        b.set(sfr::PCON, rng_() % 2 ? 0 : 0x80);
+        b.set(sfr::IE, static_cast<int>((rng_() & 0x9F) | (rng_() % 4 ? 0x80 : 0)));
+        b.set(sfr::TMOD, static_cast<int>(rng_() & 0x33));
+        b.set(sfr::TCON, static_cast<int>(0x50 | (rng_() & 0x0F)));
+        b.set(sfr::SCON, static_cast<int>(0x10 | (rng_() & 0xC0)));
+        b.set(sfr::SP, static_cast<int>(0x30 + rng_() % 0x30));
+    }
+};
+
+void observe_nothing(bare_cpu& b)
+{
+    mcs51_observer_t o{};
+    o.access = [](void*, mcs51_space_t, uint16_t, uint8_t, bool, uint64_t) {};
+    mcs51_observe(b.cpu, &o);
+}
+
+std::string state(bare_cpu& b)
+{
+    std::string s = "pc " + std::to_string(b.pc()) + " cycle " + std::to_string(b.now()) + " instructions " +
+                    std::to_string(mcs51_instructions(b.cpu)) + " interrupts " +
+                    std::to_string(mcs51_interrupts(b.cpu)) + " edges " + std::to_string(b.edges.size()) + " reports " +
+                    std::to_string(b.reports.size());
+    for (unsigned a = 0; a < 0x100; ++a)
+    {
+        const unsigned v = a < 0x80 ? b.ram(static_cast<uint8_t>(a)) : b.get(static_cast<uint8_t>(a));
+        s += (a % 16 ? " " : "\n") + std::to_string(v);
+    }
+    return s;
+}
+
+void expect_same_edges(const bare_cpu& a, const bare_cpu& b)
+{
+    ASSERT_EQ(a.edges.size(), b.edges.size());
+    for (size_t i = 0; i < a.edges.size(); ++i)
+    {
+        ASSERT_EQ(a.edges[i].cycle, b.edges[i].cycle) << "edge " << i;
+        ASSERT_EQ(a.edges[i].out, b.edges[i].out) << "edge " << i;
+        ASSERT_EQ(a.edges[i].port, b.edges[i].port) << "edge " << i;
+    }
+    for (size_t i = 0; i < a.reports.size(); ++i)
+    {
+        ASSERT_EQ(a.reports[i].at, b.reports[i].at) << a.reports[i].text;
+        ASSERT_EQ(a.reports[i].detail, b.reports[i].detail) << a.reports[i].text;
+    }
+}
+
+TEST(fast, agrees_with_the_plain_engine_on_random_programs)
+{
+    const unsigned programs = std::getenv("INS_BENCH") ? BENCH_PROGRAMS : PROGRAMS;
+    uint64_t instructions = 0, interrupts = 0, edges = 0, stops = 0;
+    for (unsigned seed = FIRST_SEED; seed < FIRST_SEED + programs; ++seed)
+    {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const soup program(seed);
+        rig fast(program, seed), plain(program, seed), turning(program, seed), patched(program, seed);
+        observe_nothing(plain.b);
+        mcs51_spin(turning.b.cpu, false);
+        mcs51_cover(patched.b.cpu, true);
+        unsigned place = seed * 40503u;
+        while (plain.b.now() < CYCLES)
+        {
+            for (const bool on : {true, true, true, false})
+            {
+                const auto pc = static_cast<uint16_t>((place += on ? 977u : 2053u) % soup::SIZE);
+                mcs51_set_break(patched.b.cpu, pc, on);
+                mcs51_set_break(plain.b.cpu, pc, on);
+            }
+            plain.slice();
+            const std::string want = state(plain.b);
+            for (rig* const r : {&fast, &turning, &patched})
+            {
+                r->slice();
+                ASSERT_EQ(state(r->b), want) << (r == &fast ? "fast" : r == &turning ? "spin off" : "patched");
+            }
+            ASSERT_EQ(patched.stops, plain.stops);
+        }
+        for (rig* const r : {&fast, &turning, &patched})
+        {
+            ASSERT_NO_FATAL_FAILURE(expect_same_edges(r->b, plain.b));
+        }
+        instructions += mcs51_instructions(plain.b.cpu);
+        interrupts += mcs51_interrupts(plain.b.cpu);
+        edges += plain.b.edges.size();
+        stops += patched.stops;
+    }
+    std::printf("seeds %u..%u: %llu instructions, %llu interrupts, %llu edges, %llu stops at breakpoints: equal\n",
+                FIRST_SEED, FIRST_SEED + programs - 1, static_cast<unsigned long long>(instructions),
+                static_cast<unsigned long long>(interrupts), static_cast<unsigned long long>(edges),
+                static_cast<unsigned long long>(stops));
+    EXPECT_GT(instructions, programs * 2000u);
+    EXPECT_GT(interrupts, programs * 20u);
+    EXPECT_GT(edges, programs * 20u);
+    EXPECT_GT(stops, programs);
+}
+
+} // namespace
