@@ -145,6 +145,9 @@ struct mcs51_t
     mcs51_next_t next;
     uint8_t marks[65536];
     uint8_t code[65536];
+    uint8_t image[65536]; ///< code as it was loaded
+    uint32_t image_sum;   ///< of mcs51_image_term()
+    bool code_changed;    ///< mcs51_set_code() was used
 };
 
 /// In units of budget: cycles, and instructions executed in them.
@@ -173,6 +176,7 @@ uint8_t mcs51_absent_code(mcs51_t* self, unsigned address);
 uint8_t mcs51_xread(mcs51_t* self, unsigned address);
 void mcs51_xwrite(mcs51_t* self, unsigned address, uint8_t value);
 void mcs51_push_beyond(mcs51_t* self, unsigned address, uint8_t value); ///< the stack is past stack_top
+uint32_t mcs51_image_term(unsigned address, uint8_t octet);
 void mcs51_reserved_opcode(mcs51_t* self);
 void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const char* text, uint32_t detail);
 

@@ -39,6 +39,7 @@ int mcs51_memory_create(mcs51_t* self)
     }
     memset(self->code, MCS51_ABSENT_CODE, sizeof self->code);
     memset(self->code, 0xFF, self->code_octets); // erased
+    memcpy(self->image, self->code, sizeof self->image);
     self->xdata = config->xdata_octets ? malloc(config->xdata_octets) : NULL;
     return config->xdata_octets && !self->xdata ? -1 : 0;
 }
@@ -67,7 +68,12 @@ int mcs51_load(mcs51_t* self, uint16_t address, const uint8_t* octets, size_t co
     {
         return -1;
     }
-    memcpy(self->code + address, octets, count);
+    for (unsigned i = 0; i < count; ++i)
+    {
+        const unsigned at = address + i;
+        self->image_sum += mcs51_image_term(at, octets[i]) - mcs51_image_term(at, self->image[at]);
+        self->image[at] = self->code[at] = octets[i];
+    }
     mcs51_forget(self);
     return 0;
 }
@@ -167,6 +173,7 @@ void mcs51_set_code(mcs51_t* self, uint16_t address, uint8_t value)
     if (address < self->code_octets)
     {
         self->code[address] = value;
+        self->code_changed = true;
         mcs51_forget(self);
     }
 }

@@ -8,6 +8,7 @@
 /// SPDX-License-Identifier: MIT
 #ifndef EMU_8051_MCS51_H_INCLUDED
 #define EMU_8051_MCS51_H_INCLUDED
+#include "emu/state.h"
 #include "emu_8051/mcs51_config.h"
 #include <stdbool.h>
 #include <stddef.h>
@@ -56,6 +57,10 @@ EMU_API uint64_t mcs51_interrupts(const mcs51_t* self);
 EMU_API void mcs51_set_pins(mcs51_t* self, unsigned port, uint8_t outside, uint64_t cycle);
 /// What the port drives now (latch AND alternate output).
 EMU_API uint8_t mcs51_port_out(const mcs51_t* self, unsigned port);
+
+/// Save or load everything that a run can change, between two runs. Loading needs a part of the same configuration with the same image
+/// loaded, else it is refused (io->bad); observers, breakpoints and coverage are not in it.
+EMU_API void mcs51_state(mcs51_t* self, emu_state_t* io);
 
 /// Debug access without side effects, this and all below: program counter, internal RAM, SFRs, code, external RAM.
 EMU_API uint16_t mcs51_pc(const mcs51_t* self);
