@@ -8,11 +8,11 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from intelhex import IntelHex
-
-from libins import hexfile
 from libins.errors import UsageError
 
-EXAMPLES = 20_000 if os.environ.get("INS_BENCH") else 300
+from libins import hexfile
+
+EXAMPLES = 5_000 if os.environ.get("INS_BENCH") else 300
 CODE = 0x1000
 BLOCK = ":0400000001020304F2\n:00000001FF\n"
 
@@ -65,14 +65,14 @@ def test_what_was_written_is_loaded(memory: dict[int, int]) -> None:
 @example(BLOCK.replace("F2", "F3").encode())
 def test_any_octets_are_loaded_or_refused(octets: bytes) -> None:
     segments = load(octets)
-    assert segments is None or all(0 <= start and start + len(data) <= CODE for start, data in segments)
+    assert segments is None or all(start >= 0 and start + len(data) <= CODE for start, data in segments)
 
 
 @settings(max_examples=EXAMPLES, deadline=None, derandomize=True)
 @given(st.lists(records, max_size=6), st.booleans())
 def test_any_records_are_loaded_or_refused(lines: list[bytes], ended: bool) -> None:
     segments = load(b"".join(lines) + (b":00000001FF\n" if ended else b""))
-    assert segments is None or all(0 <= start and start + len(data) <= CODE for start, data in segments)
+    assert segments is None or all(start >= 0 and start + len(data) <= CODE for start, data in segments)
 
 
 @settings(max_examples=EXAMPLES, deadline=None, derandomize=True)
