@@ -1,5 +1,5 @@
 # The acquisition board: its parts, its wiring, and the firmware it runs.
-target_sources(emu_8051 PRIVATE board.c parts/tlc2543.c)
+target_sources(emu_8051 PRIVATE board.c board_state.c parts/tlc2543.c)
 if(INS_BUILD_FIRMWARE)
   include(firmware/firmware.cmake)
   add_acq_firmware(acq_default 20000 9600 6 1)

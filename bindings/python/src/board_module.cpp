@@ -108,6 +108,16 @@ void bind_board(nb::class_<Run>& run)
 {
     run.def("until_octet", &Run::until_octet, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
         .def("take_received", take_received)
+        .def("save",
+             [](Run& self)
+             {
+                 const std::string octets = self.save();
+                 return nb::bytes(octets.data(), octets.size());
+             })
+        .def(
+            "restore",
+            [](Run& self, const nb::bytes& octets) { self.restore(std::string(octets.c_str(), octets.size())); },
+            "octets"_a)
         .def("set_volts", &Run::set_volts, "channel"_a, "volts"_a)
         .def("clear_volts", &Run::clear_volts, "channel"_a)
         .def("read", read, "space"_a, "address"_a, "count"_a)

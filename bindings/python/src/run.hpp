@@ -140,6 +140,12 @@ class Run
     /// Octets from the outside; \return how many the transmitter took.
     size_t send(const std::string& octets);
 
+    /// All of the run as octets, for a run made with the same configuration; see run_state.cpp.
+    std::string save();
+    /// Throws std::invalid_argument when they are not of such a run or were changed; the run is then as it was. States, edges and octets
+    /// that were not taken are dropped.
+    void restore(const std::string& octets);
+
     emu_time_t now() const { return sched_.now; }
     acq_board_t* board() const { return board_.get(); }
     const RunConfig& config() const { return config_; }
@@ -177,6 +183,7 @@ class Run
     static void on_pin_edge(void* ctx, bool level, emu_time_t at);
     static void on_report(void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at);
     void wire_up();
+    void walk(emu_state_t* io);
     void navigate(const ins_nav_sample_t& sample, emu_time_t at);
     std::optional<size_t> origin_of(const ins_nav_sample_t& sample) const;
 

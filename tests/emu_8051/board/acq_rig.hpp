@@ -133,6 +133,20 @@ class acq_rig_t
     acq_rig_t& operator=(const acq_rig_t&) = delete;
 
     void run_to_ms(double ms) { acq_board_run(board, static_cast<emu_time_t>(ms * 1e9)); }
+    /// The line and the host, after the board's own state.
+    void outside_state(emu_state_t* io)
+    {
+        emu_wire_state(&to_host, io);
+        emu_wire_state(&from_host, io);
+        emu_serial_line_state(&up, io);
+        emu_serial_line_state(&down, io);
+        emu_serial_end_state(&end, io);
+        emu_event_state(&sched, &clock, io);
+        emu_event_state(&sched, &ack, io);
+        emu_state_octets(io, &host, sizeof host);
+        emu_state_bool(io, &exchanging);
+        emu_state_u32(io, &asked);
+    }
     unsigned u8(const std::string& symbol, unsigned offset = 0)
     {
         EXPECT_EQ(symbols.count(symbol), 1u) << symbol;
@@ -168,7 +182,7 @@ class acq_rig_t
     emu_wire_t to_host, from_host;
     emu_serial_line_t up, down;
     emu_serial_end_t end;
-    ins_hs_host_t host;
+    ins_hs_host_t host{};
     emu_event_t clock;
     bool silent = false;      ///< the host answers nothing
     emu_time_t ack_delay = 0; ///< from a block to its 00

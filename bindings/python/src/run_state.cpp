@@ -1,0 +1,211 @@
+/// \file   run_state.cpp
+/// \brief  Snapshot and restore of a run. SPDX-License-Identifier: MIT
+///
+/// "LRUN", version; octets that follow and their FNV-1a; then board, line, host, navigator and what was counted. The navigator is there
+/// as the core keeps it, in the machine's own layout: a snapshot with a navigator is for builds of one kind.
+#include "run.hpp"
+#include <stdexcept>
+#include <type_traits>
+
+namespace libins
+{
+namespace
+{
+
+constexpr uint32_t version = 1;
+constexpr size_t header_octets = 24;
+
+uint64_t fnv1a(const char* octets, size_t size)
+{
+    uint64_t hash = 0xCBF29CE484222325;
+    for (size_t i = 0; i < size; i++)
+    {
+        hash = (hash ^ static_cast<uint8_t>(octets[i])) * 0x100000001B3;
+    }
+    return hash;
+}
+
+void same(emu_state_t* io, uint64_t value)
+{
+    uint64_t loaded = value;
+    emu_state_u64(io, &loaded);
+    emu_state_check(io, loaded == value);
+}
+
+void size(emu_state_t* io, size_t& value)
+{
+    uint64_t octets = value;
+    emu_state_u64(io, &octets);
+    value = io->bad ? value : static_cast<size_t>(octets);
+}
+
+void text(emu_state_t* io, std::string& value)
+{
+    size_t length = value.size();
+    size(io, length);
+    emu_state_check(io, length <= io->size);
+    if (!io->bad)
+    {
+        value.resize(length);
+        emu_state_octets(io, value.data(), length);
+    }
+}
+
+/// A plain struct of the core, as it is.
+template <typename T> void plain(emu_state_t* io, T& value)
+{
+    static_assert(std::is_trivially_copyable_v<T>);
+    same(io, sizeof value);
+    emu_state_octets(io, &value, sizeof value);
+}
+
+void each(emu_state_t* io, Scan& scan)
+{
+    for (size_t i = 0; i < scan.at.size(); i++)
+    {
+        emu_state_i64(io, &scan.at[i]);
+        emu_state_u16(io, &scan.code[i]);
+    }
+}
+
+void each(emu_state_t* io, Report& report)
+{
+    bool guest = report.kind == EMU_GUEST_ERROR;
+    emu_state_bool(io, &guest);
+    report.kind = guest ? EMU_GUEST_ERROR : EMU_NOT_MODELLED;
+    text(io, report.text);
+    emu_state_u32(io, &report.detail);
+    emu_state_i64(io, &report.first);
+    emu_state_u64(io, &report.count);
+}
+
+template <typename T> void list(emu_state_t* io, std::vector<T>& values)
+{
+    size_t count = values.size();
+    size(io, count);
+    emu_state_check(io, count <= io->size);
+    if (io->bad)
+    {
+        return;
+    }
+    values.resize(count);
+    for (T& value : values)
+    {
+        each(io, value);
+    }
+}
+
+void map(emu_state_t* io, std::map<unsigned, double>& values)
+{
+    size_t count = values.size();
+    size(io, count);
+    std::map<unsigned, double> loaded;
+    auto next = values.begin();
+    for (size_t i = 0; i < count && !io->bad; i++)
+    {
+        uint32_t key = emu_state_loading(io) ? 0 : next->first;
+        double value = emu_state_loading(io) ? 0.0 : (next++)->second;
+        emu_state_u32(io, &key);
+        emu_state_f64(io, &value);
+        loaded[key] = value;
+    }
+    values = std::move(loaded);
+}
+
+void board_of(emu_state_t* io, acq_board_t* board)
+{
+    size_t octets = acq_board_save(board, nullptr, 0);
+    size(io, octets);
+    emu_state_check(io, octets <= io->size - io->at);
+    if (io->bad)
+    {
+        return;
+    }
+    if (emu_state_loading(io))
+    {
+        emu_state_check(io, acq_board_restore(board, io->from + io->at, octets) == 0);
+    }
+    else if (io->to != nullptr)
+    {
+        acq_board_save(board, io->to + io->at, io->size - io->at);
+    }
+    io->at += octets;
+}
+
+} // namespace
+
+void Run::walk(emu_state_t* io)
+{
+    same(io, config_.nav ? 1 : 0);
+    board_of(io, board_.get());
+    emu_wire_state(&host_rxd_, io);
+    emu_wire_state(&host_txd_, io);
+    for (emu_serial_line_t& line : lines_)
+    {
+        emu_serial_line_state(&line, io);
+    }
+    emu_serial_end_state(&end_, io);
+    plain(io, link_);
+    plain(io, solver_);
+    emu_state_bool(io, &started_);
+    size(io, first_scan_);
+    size(io, last_scan_);
+    each(io, pending_);
+    uint32_t channels = pending_channels_;
+    emu_state_u32(io, &channels);
+    emu_state_check(io, channels < 3);
+    pending_channels_ = io->bad ? pending_channels_ : channels;
+    list(io, scans);
+    list(io, reports);
+    emu_state_u64(io, &corrupt_accepted);
+    emu_state_bool(io, &halted_);
+    map(io, volts_);
+}
+
+std::string Run::save()
+{
+    emu_state_t count{};
+    walk(&count);
+    std::string octets(header_octets + count.at, '\0');
+    auto* to = reinterpret_cast<uint8_t*>(octets.data());
+    emu_state_t body{to + header_octets, nullptr, count.at, 0, false}, head{to, nullptr, header_octets, 0, false};
+    walk(&body);
+    emu_state_tag(&head, "LRUN", version);
+    same(&head, count.at);
+    same(&head, fnv1a(octets.data() + header_octets, count.at));
+    return octets;
+}
+
+void Run::restore(const std::string& octets)
+{
+    const auto* from = reinterpret_cast<const uint8_t*>(octets.data());
+    const size_t rest = octets.size() < header_octets ? 0 : octets.size() - header_octets;
+    emu_state_t head{nullptr, from, octets.size(), 0, false};
+    emu_state_tag(&head, "LRUN", version);
+    same(&head, rest);
+    same(&head, fnv1a(octets.data() + octets.size() - rest, rest));
+    if (head.bad)
+    {
+        throw std::invalid_argument("this is no snapshot of a run of this version, or it was changed or cut short");
+    }
+    const std::string before = save();
+    const auto load = [this](const std::string& all)
+    {
+        emu_state_t io{nullptr, reinterpret_cast<const uint8_t*>(all.data()) + header_octets,
+                       all.size() - header_octets, 0, false};
+        walk(&io);
+        return !io.bad && io.at == io.size;
+    };
+    if (!load(octets))
+    {
+        load(before);
+        throw std::invalid_argument(
+            "the snapshot is of a run with another configuration: part, memory, image, crystal, converters, "
+            "line faults or navigator");
+    }
+    states_.clear();
+    edges_.clear();
+    octets_.clear();
+}
+
+} // namespace libins
