@@ -1,9 +1,10 @@
 /// \file   default_run.cpp
 /// \brief  A load for callgrind: N seconds of the default scenario in C++, with or without the record of edges.
 ///
-///     bench_default_run IMAGE.ihx N [trace]
+///     bench_default_run IMAGE.ihx N [trace|save|restore M]
 ///
-/// Run twice with different N: the difference over the difference is the cost of a simulated second, start-up subtracted.
+/// Run twice with different N: the difference over the difference is the cost of a simulated second, start-up subtracted; with
+/// different M, that of a snapshot of the board, saved or restored, at the end.
 /// Prints what the run counted.
 /// SPDX-License-Identifier: MIT
 #include "run.hpp"
@@ -82,10 +83,21 @@ try
     const bool trace = argc > 3 && std::strcmp(argv[3], "trace") == 0;
     libins::Run run(config_of(argv[1], trace, gyro), motion, gyro);
     run.until(std::atoll(argv[2]) * 1'000'000'000'000);
-    std::printf("instructions %llu cycles %llu accepted %llu edges %zu\n",
+    std::vector<uint8_t> octets(acq_board_save(run.board(), nullptr, 0));
+    acq_board_save(run.board(), octets.data(), octets.size());
+    for (int i = 0; argc > 4 && i < std::atoi(argv[4]); i++)
+    {
+        if (std::strcmp(argv[3], "restore") == 0
+                ? acq_board_restore(run.board(), octets.data(), octets.size()) != 0
+                : acq_board_save(run.board(), octets.data(), octets.size()) != octets.size())
+        {
+            throw std::runtime_error("the board refuses its own snapshot");
+        }
+    }
+    std::printf("instructions %llu cycles %llu accepted %llu edges %zu snapshot %zu\n",
                 static_cast<unsigned long long>(mcs51_instructions(run.cpu())),
                 static_cast<unsigned long long>(mcs51_cycle(run.cpu())),
-                static_cast<unsigned long long>(run.counts().accepted), run.take_edges().size());
+                static_cast<unsigned long long>(run.counts().accepted), run.take_edges().size(), octets.size());
     return 0;
 }
 catch (const std::exception& error)

@@ -226,6 +226,8 @@ void emu_serial_end_state(emu_serial_end_t* self, emu_state_t* io)
     emu_state_i64(io, &self->rx_start);
     emu_event_state(self->sched, &self->rx_event, io);
     emu_state_check(io, self->tx_bit <= FRAME_BITS && self->rx_bit <= FRAME_BITS && self->rx_sample < SAMPLES);
+    emu_state_check(io, self->tx_busy == self->tx_event.pending && self->rx_busy == self->rx_event.pending);
+    emu_state_check(io, self->tx != NULL || !self->tx_busy);
     emu_state_check(io, emu_state_time(self->tx_start) && emu_state_time(self->rx_start));
     fifo_state(self, io);
     emu_state_u64(io, &self->octets_sent);

@@ -58,6 +58,7 @@ void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t 
     if (level != self->level)
     {
         self->level = level;
+        self->changed = at;
         for (unsigned i = 0; i < self->watchers; i++)
         {
             self->watch[i].fn(self->watch[i].ctx, level, at);
@@ -78,5 +79,6 @@ void emu_wire_state(emu_wire_t* self, emu_state_t* io)
     }
     emu_state_bool(io, &self->level);
     emu_state_bool(io, &self->floating);
+    emu_state_i64(io, &self->changed);
     emu_state_u64(io, &self->contentions);
 }

@@ -25,12 +25,22 @@ typedef struct tlc2543_config_t
     emu_time_t t_eoc;    ///< last falling edge to EOC low, 1.5 us typical, 2.2 us maximum
     emu_time_t t_abort;  ///< a /CS fall within this of the last clock's fall aborts the conversion, 5 us maximum
     emu_time_t t_enable; ///< /CS low to DATA OUT driven, 0.7 us typical, 1.3 us maximum
+    emu_time_t t_cs;     ///< /CS low to the first clock, 1.425 us at least, or it is reported
+    emu_time_t t_clock;  ///< period of I/O CLOCK, 1 / 4.1 MHz at least, or it is reported
+    emu_time_t t_setup;  ///< DATA IN stable before a rising edge, 100 ns at least, or it is reported
+    emu_time_t t_hold;   ///< and after it, 0; a change in the instant of the edge is reported in any case
     double offset_lsb, gain_lsb; ///< static errors, 0 by default; gain_lsb at full scale
     emu_analog_t analog;         ///< volts NULL: all inputs at REF-
     unsigned first_channel;      ///< AIN0 is this channel to `analog` and `sampled`, the self-tests 11 to 13 after it
     tlc2543_sample_fn sampled;   ///< may be NULL
     void* sampled_ctx;
     emu_report_t report;
+    /// What no data sheet at hand says; all zero but power_up_code is the choice that parts/tlc2543.c describes.
+    uint16_t power_up_code;     ///< what is read before the first result; random in silicon, A5Ah by default
+    uint8_t power_up_lost;      ///< conversions after power-up that give power_up_code instead of a result
+    uint8_t wake_lost;          ///< the same after a software power-down
+    uint8_t pad;                ///< the four bits below a 16-bit word
+    bool early_cs_loses_result; ///< /CS rising inside a transfer: the previous result reads as zeros from then on
 } tlc2543_config_t;
 
 typedef struct tlc2543_t tlc2543_t;

@@ -37,6 +37,7 @@ typedef struct emu_wire_t
     } watch[EMU_WIRE_WATCHERS];
     bool level;
     bool floating;
+    emu_time_t changed; ///< instant of the last change of level
     uint64_t contentions;
 } emu_wire_t;
 
