@@ -153,7 +153,7 @@ def test_codes_are_the_volts_at_the_instant_of_the_sample(net):
     for at in net["sampled"].at:
         channel = int(net["channel"].value(at), 2)
         volts = float(net[f"AIN{channel}"].value(at))
-        assert int(net["code"].value(at), 2) == pytest.approx(volts / SPAN_V * CODES, abs=1.0)
+        assert int(net["code"].value(at), 2) == pytest.approx(volts / SPAN_V * CODES, abs=0.5)
 
 
 def test_the_grid_of_the_volts(wires):

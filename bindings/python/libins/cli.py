@@ -272,7 +272,7 @@ def _run_one(loaded: scenario.Scenario, options: argparse.Namespace, handle: Any
     if options.trace is not None:
         _write(place(options.trace), "".join(trace_lines))
     if options.report is not None:
-        _write(place(options.report), _page().html(loaded, result))
+        _write(place(options.report), _page().html(loaded, result, settings.watch.view if settings.watch else None))
     return result
 
 

@@ -8,7 +8,7 @@ from typing import Any, TextIO
 
 import numpy as np
 
-from libins import _run, coverage, itrace, profile, vcd
+from libins import _run, coverage, itrace, profile, vcd, views
 from libins.cdb import ADDRESS_END, Cdb
 from libins.cdb import load as load_cdb
 from libins.disasm import SFR
@@ -30,10 +30,8 @@ class Wanted:
     """The .cdb; without it, the one beside the image."""
     source: list[Path] = field(default_factory=list)
     """Folders with the firmware's C files."""
-
-    def anything(self) -> bool:
-        """Whether the run has to be looked at."""
-        return bool(self.vcd or self.itrace or self.lcov or self.profile)
+    view_s: float | None = None
+    """Instant around which the report's pictures are."""
 
 
 class _File:
@@ -83,6 +81,7 @@ class Observation:
         self._dump: vcd.Dump | None = None
         self._trace: itrace.Writer | None = None
         self._observer: Any = None
+        self._recorder: views.Recorder | None = None
 
     def _debug_information(self) -> Cdb | None:
         beside = self._scenario.firmware.with_suffix(".cdb")
@@ -103,6 +102,8 @@ class Observation:
         if self._table:
             self._table.correct_lines(code)
         watch: list[int] = []
+        if w.view_s is not None:
+            self._recorder = views.Recorder(run, w.view_s, self._scenario.tables.link.baud)
         if w.vcd:
             settings = vcd.Settings(
                 self._scenario.tables.link.baud,
@@ -126,19 +127,24 @@ class Observation:
 
     def slice(self, run: Any, edges: Any) -> None:
         """The edges of the traced wires since the last call."""
+        pins, samples = _run.take_pin_edges(run), _run.take_samples(run)
         changes = self._observer.take_changes() if self._observer else np.empty((0, 3), np.int64)
+        if self._recorder:
+            self._recorder.slice(run, edges, samples)
         if self._dump:
-            self._dump.slice(edges, changes)
+            self._dump.slice(edges, pins, changes, samples)
         if self._trace:
             self._trace.slice(self._observer.take_trace())
 
     def end(self, run: Any) -> dict[str, Any]:
-        """The summary's `observed`; files get their names."""
+        """What the summary gets, `observed` if something was measured; files get their names."""
         for writer in (self._dump, self._trace):
             if writer is not None:
                 writer.close()
         for file in self._files:
             file.done()
+        if self._recorder:
+            self._recorder.end(run)
         observed: dict[str, Any] = {}
         if self._observer is not None:
             observed |= self._profile(run)
@@ -149,7 +155,7 @@ class Observation:
                 lcov = _File(self._wanted.lcov)
                 lcov.text.write(coverage.lcov(files, self._paths))
                 lcov.done()
-        return observed
+        return {"observed": observed} if observed else {}
 
     def _profile(self, run: Any) -> dict[str, Any]:
         observer = self._observer
@@ -167,6 +173,11 @@ class Observation:
             "sfrs": profile.sfrs(observer),
             "sampling": profile.sampling(run.scans(), self._scenario.tables.clock_hz),
         }
+
+    @property
+    def view(self) -> "views.View | None":
+        """What the report's pictures show."""
+        return self._recorder.view if self._recorder else None
 
     def close(self) -> None:
         """Take away what an interrupted run has left."""

@@ -1,13 +1,12 @@
 """The report of a run: one self-contained HTML page with plots. The same bytes for the same run."""
 
-import io
-
 import matplotlib
 import numpy as np
 from jinja2 import Environment, PackageLoader, select_autoescape
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
+from libins import pictures, profile, views
 from libins.run import AXES, COLUMNS, Array, Result
 from libins.scenario import Scenario
 
@@ -19,7 +18,7 @@ def attitude_plot(states: Array) -> str:
     """Truth against estimate, and the error, as SVG."""
     thinned = states[:: max(1, len(states) // PLOT_POINTS)]
     t = thinned[:, COLUMNS["t_s"]]
-    with matplotlib.rc_context({"svg.hashsalt": "libins", "svg.fonttype": "none", "font.size": 9}):
+    with matplotlib.rc_context({"font.size": 9}):
         figure = Figure(figsize=(9, 6), layout="constrained")
         angles, errors = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         for axis, colour in zip(AXES, ("tab:green", "tab:orange", "tab:blue"), strict=True):
@@ -33,20 +32,25 @@ def attitude_plot(states: Array) -> str:
         errors.set_xlabel("time [s]")
         for axes in (angles, errors):
             axes.grid(alpha=0.3)
-        out = io.StringIO()
-        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    return out.getvalue()[out.getvalue().index("<svg") :]
+        return pictures.svg(figure)
 
 
-def html(scenario: Scenario, result: Result) -> str:
+def _markup(picture: str | None) -> Markup | None:
+    return None if picture is None else Markup(picture)
+
+
+def html(scenario: Scenario, result: Result, view: views.View | None = None) -> str:
     """One self-contained page. Holds no wall-clock figure."""
     environment = Environment(
         loader=PackageLoader("libins", "."), autoescape=select_autoescape(), trim_blocks=True, lstrip_blocks=True
     )
-    plot = Markup(attitude_plot(result.states)) if len(result.states) else None
+    plot = _markup(attitude_plot(result.states)) if len(result.states) else None
     return environment.get_template("report.html").render(
         summary=result.summary,
         plot=plot,
+        logic=_markup(pictures.logic(view)) if view else None,
+        scope=_markup(pictures.scope(view)) if view else None,
+        profile=profile.text(result.summary["observed"]) if "coverage" in result.summary.get("observed", {}) else None,
         axes=AXES,
         scenario_text=scenario.path.read_text(encoding="utf-8"),
         ages=np.round(result.states[:, COLUMNS["age_s"]] * 1e3, 3) if len(result.states) else None,

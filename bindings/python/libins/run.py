@@ -202,7 +202,7 @@ def execute(scenario: Scenario, options: Options) -> Result:
         "dds": {"published": published, "received": None} if options.publish is not None else None,
         "trace_sha256": digest.hexdigest(),
         "reports": run.reports(),
-        **({"observed": options.watch.end(run)} if options.watch is not None else {}),
+        **(options.watch.end(run) if options.watch is not None else {}),
     }
     checks = [_judged(expect, summary) for expect in tables.expect]
     if tables.stop_samples is not None:

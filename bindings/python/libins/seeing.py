@@ -5,6 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from libins.errors import UsageError
 from libins.scenario import Scenario
 
 if TYPE_CHECKING:
@@ -30,14 +31,20 @@ def add_options(command: argparse.ArgumentParser) -> None:
     group.add_argument("--lcov", type=Path, metavar="F.info", help="*write line and branch coverage for genhtml")
     group.add_argument("--cdb", type=Path, metavar="F.cdb", help="the .cdb, if it is not beside the image")
     group.add_argument(
+        "--report-at", type=float, metavar="S", help="with --report: instant of its pictures (the middle of the run)"
+    )
+    group.add_argument(
         "--source", type=Path, action="append", default=[], metavar="DIR", help="where the firmware's C files are"
     )
 
 
 def observation(loaded: Scenario, options: argparse.Namespace, place: Callable[[Path], Path]) -> "Observation | None":
     """What was asked for, or None; `place` gives a file its name in this run. Raises UsageError."""
-    if not (options.vcd or options.itrace or options.lcov or options.profile):
+    if not (options.vcd or options.itrace or options.lcov or options.profile or options.report):
         return None
+    stop_s = loaded.tables.stop_s
+    if options.report_at is not None and not 0 <= options.report_at <= stop_s:
+        raise UsageError(f"--report-at {options.report_at:g}: must lie in 0 .. {stop_s:g}, the simulated seconds")
     from libins import observe  # pyvcd only where it is needed
 
     def placed(path: Path | None) -> Path | None:
@@ -52,5 +59,6 @@ def observation(loaded: Scenario, options: argparse.Namespace, place: Callable[[
         profile=options.profile is not None,
         cdb=options.cdb,
         source=options.source,
+        view_s=(stop_s / 2 if options.report_at is None else options.report_at) if options.report else None,
     )
     return observe.Observation(loaded, wanted)

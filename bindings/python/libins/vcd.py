@@ -18,6 +18,8 @@ PS_PER_US = 10**6
 PORTS = 4
 CHANNELS = 3
 """Analogue inputs with something connected."""
+Samples = list[tuple[int, int, int, float]]
+"""Instant [ps], channel, code, volts."""
 LINES = ("TXD", "RXD")
 HELD_BITS = 11
 """Changes wait for so many bits of the line: an octet is known at its end and shown from its begin."""
@@ -80,12 +82,12 @@ class Dump:
         self._order += 1
         heapq.heappush(self._pending, (at, self._order, variable, value))
 
-    def slice(self, edges: Any, changes: Any) -> None:
-        """Edges of wires and changes an Observer has seen since the last call, up to the run's present instant."""
+    def slice(self, edges: Any, pins: Any, changes: Any, samples: Samples) -> None:
+        """What happened since the last call, up to the run's present: `changes` are what an Observer has seen."""
         now = self._run.now_ps
         for at, wire, level in edges.tolist():
             self._put(at, self._nets[wire], level)
-        for at, pin, level in _run.take_pin_edges(self._run).tolist():
+        for at, pin, level in pins.tolist():
             port, bit = divmod(pin, 8)
             self._pins[port] = self._pins[port] & ~(1 << bit) | level << bit
             self._put(at, self._ports[port], self._pins[port])
@@ -99,7 +101,7 @@ class Dump:
             for frame in decoder.feed(((at, bool(level)) for at, w, level in edges.tolist() if w == wire), now):
                 self._put(frame.begin_ps, self._octets[net], str(frame))
                 self._put(frame.end_ps, self._octets[net], "")
-        for at, channel, code, volts in _run.take_samples(self._run):
+        for at, channel, code, volts in samples:
             if channel < len(self._volts):
                 self._put(at, self._volts[channel], volts)
             self._put(at, self._channel, channel)
