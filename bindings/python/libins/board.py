@@ -11,6 +11,7 @@ r"""The acquisition board as an object: firmware runs in it, the test plays the 
 The same calls give the same cycles, octets and pins on every machine.
 """
 
+import contextlib
 import copy
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -23,6 +24,7 @@ from libins import cdb, run, scenario, snapshot
 from libins.board_uart import ExpectError, Inbox, Octet, Pattern, failure, seconds, shown
 from libins.board_views import Memory, Pins, Registers, Variables, Volts
 from libins.errors import UsageError
+from libins.observe import Observation, Wanted
 from libins.report import report_line
 from libins.run import PS_PER_S
 from libins.schema import Document
@@ -84,6 +86,7 @@ class Board:
             raise UsageError("Board: a scenario that is loaded takes no keys")
         self.scenario = scenario_file
         self._navigator, self._trace = navigator, trace
+        self._watch: Observation | None = None
         self._keep_ps = 0
         self._past: list[tuple[Snapshot, list[Input]]] = []
         self._power_on()
@@ -142,6 +145,7 @@ class Board:
 
         Raises TimeoutError when it does not hold within_s from now.
         """
+        __tracebackhide__ = True
         if not callable(when):
             self.run_for(when - self.now_s)
             return
@@ -156,6 +160,7 @@ class Board:
 
         Raises TimeoutError when it is not reached within_s from now.
         """
+        __tracebackhide__ = True
         address = self.symbols.function(place).begin if isinstance(place, str) else place
         end = self.now_ps + round(within_s * PS_PER_S)
         self._run.set_break(address, True)
@@ -173,6 +178,8 @@ class Board:
             goal = min(end_ps, self._next_keep_ps())
             reached = go(goal)
             self._inbox.add([Octet(*octet) for octet in self._run.take_received()])
+            if self._watch is not None:
+                self._watch.slice(self._run, self._run.take_edges())
             if reached and self.now_ps >= self._next_keep_ps():
                 self._keep()
             if not reached and done():
@@ -192,6 +199,7 @@ class Board:
         What was received before and not matched counts. Stops at the octet that completes the match.
         Raises ExpectError.
         """
+        __tracebackhide__ = True
         start = self.now_ps
         end = start + round(within_s * PS_PER_S)
         found: list[re.Match[bytes]] = []
@@ -283,6 +291,25 @@ class Board:
     def reset(self, power_on: bool = False) -> None:
         """Pulse the RST pin; or the supply, which also clears RAM."""
         self._do("reset", power_on)
+
+    @contextlib.contextmanager
+    def record(self, **wanted: Any) -> Iterator[dict[str, Any]]:
+        """Write down what happens inside the with statement: vcd=, itrace=, lcov= a file, profile=True.
+
+        The board needs trace=True. Gives a dict that holds the profile and the totals of the coverage in the end.
+        """
+        if not self._trace:
+            raise UsageError("record: the edges of the wires are needed; make the board with trace=True")
+        watch = Observation(self.scenario, Wanted(**wanted))
+        observed: dict[str, Any] = {}
+        try:
+            watch.begin(self._run)
+            self._watch = watch
+            yield observed
+            observed.update(watch.end(self._run))
+        finally:
+            self._watch = None
+            watch.close()
 
     # Snapshots
 
