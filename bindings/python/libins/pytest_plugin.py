@@ -152,7 +152,8 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
     """Where each board of a failed test is, what it last sent, and its artifacts."""
     report: pytest.TestReport = yield
     if report.failed:
-        for number, board in enumerate(item.stash.get(BOARDS, []), start=1):
+        boards: list[Board] = item.stash.get(BOARDS, [])
+        for number, board in enumerate(boards, start=1):
             report.sections.append((f"board {number} at {report.when}", _section(item, board, number)))
     return report
 
