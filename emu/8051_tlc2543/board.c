@@ -75,8 +75,11 @@ static void net_changed(void* ctx, bool level, emu_time_t at)
 static void sync_to(void* ctx, uint64_t cycle)
 {
     acq_board_t* const self = ctx;
-    self->synced = cycle;
-    self->synced_at = emu_ticker_time(&self->clock, cycle);
+    if (cycle != self->synced)
+    {
+        self->synced = cycle;
+        self->synced_at = emu_ticker_time(&self->clock, cycle);
+    }
     emu_sched_advance(self->sched, self->synced_at);
 }
 
@@ -257,7 +260,8 @@ void acq_board_destroy(acq_board_t* self)
 mcs51_stop_t acq_board_run(acq_board_t* self, emu_time_t t)
 {
     mcs51_stop_t stop = MCS51_RAN;
-    while (stop != MCS51_STOPPED && emu_ticker_time(&self->clock, mcs51_cycle(self->cpu)) < t)
+    sync_to(self, mcs51_cycle(self->cpu));
+    while (stop != MCS51_STOPPED && self->synced_at < t)
     {
         self->goal = t;
         self->running = true;

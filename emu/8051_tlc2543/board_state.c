@@ -51,6 +51,11 @@ static void walk(acq_board_t* self, emu_state_t* io)
     {
         tlc2543_state(self->adcs[n], io);
     }
+    if (emu_state_loading(io) && !io->bad)
+    {
+        self->synced = mcs51_cycle(self->cpu);
+        self->synced_at = emu_ticker_time(&self->clock, self->synced);
+    }
 }
 
 static void header(emu_state_t* io, uint64_t size, uint64_t hash)

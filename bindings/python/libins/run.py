@@ -172,7 +172,7 @@ def execute(scenario: Scenario, options: Options) -> Result:
                 options.console(program.output(run))
         states, raw = run.take_states()
         edges = run.take_edges()
-        digest.update(edges.tobytes())
+        digest.update(edges)
         if options.trace is not None:
             options.trace(edges)
         if options.watch is not None:

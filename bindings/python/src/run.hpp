@@ -43,11 +43,12 @@ struct Scored
     std::array<double, 3> error{}; ///< estimate - truth, wrapped to +-pi
 };
 
+/// A row of what Python gets.
 struct Edge
 {
-    emu_time_t at;
-    unsigned wire; ///< index into Run::traced
-    bool level;
+    int64_t at;
+    int64_t wire; ///< index into Run::traced
+    int64_t level;
 };
 
 struct Report

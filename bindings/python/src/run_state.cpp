@@ -205,6 +205,7 @@ void Run::restore(const std::string& octets)
     }
     states_.clear();
     edges_.clear();
+    pin_edges_.clear();
     octets_.clear();
 }
 

@@ -97,14 +97,20 @@ static void rx_decide(emu_serial_end_t* self)
 /// wire changes or the frame ends, so they are not events.
 static void rx_catch_up(emu_serial_end_t* self, bool level, emu_time_t t)
 {
-    while (self->rx_busy && self->rx_bit < FRAME_BITS && rx_time(self, self->rx_bit, self->rx_sample) <= t)
+    while (self->rx_busy && self->rx_bit < FRAME_BITS)
     {
-        self->rx_votes = (uint8_t)(self->rx_votes + level);
-        self->rx_sample++;
-        if (self->rx_sample == SAMPLES)
+        const unsigned first = self->rx_sample;
+        const bool whole = rx_time(self, self->rx_bit, SAMPLES - 1) <= t;
+        while (self->rx_sample < SAMPLES && (whole || rx_time(self, self->rx_bit, self->rx_sample) <= t))
         {
-            rx_decide(self);
+            self->rx_sample++;
         }
+        self->rx_votes = (uint8_t)(self->rx_votes + level * (self->rx_sample - first));
+        if (!whole)
+        {
+            return;
+        }
+        rx_decide(self);
     }
 }
 

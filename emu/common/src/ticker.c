@@ -94,6 +94,11 @@ static emu_time_t instant(const emu_ticker_t* self, uint64_t tick)
 
 emu_time_t emu_ticker_time(emu_ticker_t* self, uint64_t tick)
 {
+    const uint64_t ticks = tick - self->tick;
+    if (ticks <= self->near / 2u)
+    {
+        return self->at + (emu_time_t)(ticks * self->step + (self->rest + ticks * self->step_rest) / self->parts);
+    }
     if (tick > self->tick && tick - self->tick > self->near / 2u + BEFORE)
     {
         uint64_t rest;

@@ -26,9 +26,9 @@ int emu_wire_watch(emu_wire_t* self, emu_wire_fn fn, void* ctx)
 
 /// What a driver's four bits are, by emu_drive_t.
 static const uint8_t strength[] = {0, 1, 2, 4, 8};
-#define WEAK0   1u
-#define STRONG0 4u
-#define STRONG1 8u
+#define WEAK0      1u
+#define STRONG0    4u
+#define CONTENTION 12u
 
 /// Strengths that are there.
 static unsigned present(uint32_t drives)
@@ -38,23 +38,26 @@ static unsigned present(uint32_t drives)
     return (drives | drives >> 4) & 15u;
 }
 
-static bool contends(unsigned set)
-{
-    return (set & (STRONG0 | STRONG1)) == (STRONG0 | STRONG1);
-}
-
 void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t at)
 {
     const unsigned shift = 4u * (unsigned)driver;
-    const uint32_t drives = (self->drives & ~(15u << shift)) | (uint32_t)strength[drive] << shift;
+    const uint32_t before = self->drives, drives = (before & ~(15u << shift)) | (uint32_t)strength[drive] << shift;
     const unsigned set = present(drives);
-    if (contends(set) && !contends(present(self->drives)))
-    {
-        self->contentions++;
-    }
+    bool level = self->level;
     self->drives = drives;
     self->floating = set == 0;
-    const bool level = set == 0 ? self->level : (set & STRONG0) == 0 && ((set & STRONG1) != 0 || (set & WEAK0) == 0);
+    if (set >= STRONG0)
+    {
+        level = (set & STRONG0) == 0;
+        if ((set & CONTENTION) == CONTENTION && (present(before) & CONTENTION) != CONTENTION)
+        {
+            self->contentions++;
+        }
+    }
+    else if (set != 0)
+    {
+        level = (set & WEAK0) == 0;
+    }
     if (level != self->level)
     {
         self->level = level;
