@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 from conftest import timeless
+from intelhex import IntelHex
+from libins.disasm import OPCODES, decode
 from sdcc_kit import FIRMWARE, build
 
 from libins import cdb, observe, run, scenario
@@ -149,6 +151,30 @@ def test_coverage_of_a_branch_that_is_never_taken(observed, folder):
     assert totals["lines"] == len(re.findall(r"^DA:", text, re.MULTILINE))
     assert totals["lines_covered"] == len(re.findall(r"^DA:\d+,1$", text, re.MULTILINE))
     assert totals["branches"] == len(re.findall(r"^BRDA:", text, re.MULTILINE))
+
+
+def test_coverage_is_what_the_trace_executed(folder, table):
+    """Every line and branch, from where the program went after each instruction."""
+    image = IntelHex(str(folder / "observed.ihx"))
+    table.correct_lines(image.__getitem__)
+    steps = [int(line[12:16], 16) for line in (folder / "o.itrace").read_text(encoding="ascii").splitlines()]
+    executed, went = set(steps), set(zip(steps, steps[1:], strict=False))
+    expected = set()
+    jumps: dict[int, int] = {}
+    for address in (line.address for line in table.asm_lines):
+        for line in table.lines_at(address):
+            ran = any(table.line_at(a) and line in table.lines_at(a) for a in executed)
+            expected.add(f"DA:{line.number},{int(ran)}")
+        if not (line := table.line_at(address)) or not OPCODES[image[address]].branches:
+            continue
+        following = address + OPCODES[image[address]].length
+        target = int(decode(image.__getitem__, address).text[-4:], 16)
+        block = jumps[line.number] = jumps.get(line.number, -1) + 1
+        for way, to in enumerate((following, target)):
+            taken = int((address, to) in went) if address in executed else "-"
+            expected.add(f"BRDA:{line.number},{block},{way},{taken}")
+    text = (folder / "o.info").read_text(encoding="ascii")
+    assert set(re.findall(r"^(?:DA|BRDA):.*$", text, re.MULTILINE)) == expected
 
 
 def test_lcov_and_genhtml_read_it(observed, folder):
