@@ -5,9 +5,10 @@ its nets, and channel and code of each sample; `board.uart` the line, and each o
 its stop bit; `board.analog` the volts at the inputs, on a grid and at each sample.
 """
 
-import heapq
+from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from operator import itemgetter
 from typing import Any, TextIO
 
 from vcd import VCDWriter
@@ -51,9 +52,8 @@ class Dump:
         self._run = run
         self._settings = settings
         self._writer = VCDWriter(file, timescale="1 ps", date="", version="libins", init_timestamp=run.now_ps)
-        self._pending: list[tuple[int, int, Any, Any]] = []
-        """(instant, order, variable, value), a heap."""
-        self._order = 0
+        self._pending: list[tuple[int, Any, Any]] = []
+        """Instant, variable, value: held back."""
         self._held_ps = round(HELD_BITS * uart.PS_PER_S / settings.baud)
         self._next_analog_ps = run.now_ps
         self._decoders = {net: uart.Decoder(settings.baud) for net in LINES}
@@ -79,8 +79,7 @@ class Dump:
         return self._writer.register_var(f"board.{scope}", name, kind, size, value)
 
     def _put(self, at: int, variable: Any, value: Any) -> None:
-        self._order += 1
-        heapq.heappush(self._pending, (at, self._order, variable, value))
+        self._pending.append((at, variable, value))
 
     def slice(self, edges: Any, pins: Any, changes: Any, samples: Samples) -> None:
         """What happened since the last call, up to the run's present: `changes` are what an Observer has seen."""
@@ -114,9 +113,12 @@ class Dump:
         self._write(now - self._held_ps)
 
     def _write(self, until: int) -> None:
-        while self._pending and self._pending[0][0] <= until:
-            at, _, variable, value = heapq.heappop(self._pending)
-            self._writer.change(variable, at, value)
+        self._pending.sort(key=itemgetter(0))
+        due = bisect_right(self._pending, until, key=itemgetter(0))
+        change = self._writer.change
+        for at, variable, value in self._pending[:due]:
+            change(variable, at, value)
+        del self._pending[:due]
 
     def close(self) -> None:
         """Write what is still held back, and the end's instant."""
