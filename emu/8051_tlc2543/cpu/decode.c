@@ -113,8 +113,8 @@ static bool decode(mcs51_t* self, uint32_t pc)
     e->opcode = code_at(self, pc);
     const opcode_t* const op = &mcs51_opcodes[e->opcode];
     const uint8_t o1 = code_at(self, pc + 1u);
-    e->o1 = op->access & BITS ? (uint8_t)BIT_BYTE(o1) : o1;
-    e->o2 = op->access & BITS ? (uint8_t)BIT_MASK(o1) : code_at(self, pc + 2u);
+    e->o1 = (uint8_t)(op->access & BITS ? BIT_BYTE(o1) : o1);
+    e->o2 = (uint8_t)(op->access & BITS ? BIT_MASK(o1) : code_at(self, pc + 2u));
     const uint32_t next = pc + op->octets;
     const uint32_t target = mcs51_target(op->target, next, e->opcode, o1, code_at(self, next - 1u));
     e->target = target < self->code_octets ? &self->entries[target] : NULL;
