@@ -43,14 +43,15 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def bare(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The wheel and what it says it requires, as those are here; nothing else of this environment, and no pip."""
+    """The wheel, what it says it requires, and pytest, as those are here; nothing else of this environment, no pip."""
     folder = tmp_path_factory.mktemp("bare")
     venv.create(folder / "bare", with_pip=False)
     python = folder / "bare/bin/python"
     site = Path(run(python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))").strip())
     run(sys.executable, "-m", "pip", "--python", python, "install", "--no-deps", "--no-index", "--quiet", wheel)
     metadata = importlib.metadata.PathDistribution(next(site.glob("libins-*.dist-info")))
-    for name in required(metadata):
+    pytest_itself = importlib.metadata.distribution("pytest")
+    for name in {"pytest"} | required(metadata) | required(pytest_itself):
         for part in {str(file).split("/")[0] for file in importlib.metadata.distribution(name).files or []}:
             source = Path(str(importlib.metadata.distribution(name).locate_file(part)))
             if part != ".." and not (site / part).exists():
@@ -98,6 +99,19 @@ def test_a_board_runs_in_a_bare_environment(bare: Path, tmp_path: Path):
     kept, built = (json.loads(path.read_text(encoding="utf-8")) for path in (out, here))
     assert kept["trace_sha256"] == built["trace_sha256"] and kept["attitude"] == built["attitude"]
     assert "usage: ins-navd" in run(bare / "ins", "nav", "--help", env={"PATH": ""}).replace("Usage", "usage")
+
+
+def test_pytest_finds_the_plugin_by_itself(bare: Path, tmp_path: Path):
+    text = """
+import pytest
+@pytest.mark.board("default", boot=b"\\xaa")
+def test_it_asks(board):
+    board.send(bytes([0xBB]))
+    board.run_for(0.02)
+    assert len(board.unread) > 6
+"""
+    (tmp_path / "test_it.py").write_text(text, encoding="utf-8")
+    assert "1 passed" in run(bare / "python", "-m", "pytest", "-q", tmp_path, cwd=tmp_path, env={"PATH": ""})
 
 
 def test_an_extra_that_is_missing_is_named(bare: Path, tmp_path: Path):
