@@ -23,7 +23,7 @@ static uint8_t operand_at(unsigned access, unsigned d)
         ((access & READS) && mcs51_read_limit[d] == INT32_MAX) ||
         ((access & WRITES) && mcs51_write_limit[d] == INT32_MAX) ||
         ((access & CHANGES) && (mcs51_latch_limit[d] == INT32_MAX || mcs51_write_limit[d] == INT32_MAX));
-    return effect ? EFFECT : d == ACC ? ACCUMULATOR : MEMORY;
+    return effect ? (!(access & READS) && (d & 0xCFu) == P0 ? PORT : EFFECT) : d == ACC ? ACCUMULATOR : MEMORY;
 }
 
 static uint8_t operand(unsigned access, const entry_t* e)
@@ -121,7 +121,7 @@ static bool decode(mcs51_t* self, uint32_t pc)
     e->operand = operand(op->access, e);
     find_poll(self, pc, e);
     choose(self, pc, e);
-    return op->target != NOWHERE || e->operand == EFFECT;
+    return op->target != NOWHERE || e->operand >= PORT;
 }
 
 void mcs51_decode(mcs51_t* self, uint32_t pc)

@@ -93,9 +93,10 @@ enum
 {
     MEMORY,
     ACCUMULATOR,
+    PORT, ///< of a port, which the instruction writes
     EFFECT
 };
-extern mcs51_handler_fn* const mcs51_handlers[3][256];
+extern mcs51_handler_fn* const mcs51_handlers[4][256];
 
 mcs51_handler_fn mcs51_decode_here; ///< of every entry at first
 mcs51_handler_fn mcs51_one;         ///< executes the instruction on the plain engine

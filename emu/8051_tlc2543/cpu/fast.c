@@ -179,6 +179,23 @@
 #define JOPD(opcode, access, ...) GOES(acc_, opcode, __VA_ARGS__)
 #include "ops.h"
 
+// It is the latch of a port.
+#undef READ
+#undef WRITE
+#undef OPD
+#undef JOPD
+#define READ(x, d) (x = mem[d]);
+#define WRITE(d, v)                                                                                                    \
+    {                                                                                                                  \
+        const unsigned written_ = (v);                                                                                 \
+        OUT(OCTETS);                                                                                                   \
+        mcs51_write_port(self, d, U8(written_));                                                                       \
+        IN;                                                                                                            \
+    }
+#define OPD(opcode, access, octets, cycles, ...) HANDLER(port_##opcode, octets, __VA_ARGS__; ip += OCTETS; ENTER)
+#define JOPD(opcode, access, ...)                GOES(port_, opcode, __VA_ARGS__)
+#include "ops.h"
+
 // It is what mcs51_read and mcs51_write make of it.
 #undef READ
 #undef LATCH
@@ -186,9 +203,15 @@
 #undef OPD
 #undef JOPD
 #define READ_BY(limit, function, x, d)                                                                                 \
+    if (mcs51_left(self) > limit[d])                                                                                   \
+    {                                                                                                                  \
+        mem[ACC] = (uint8_t)a;                                                                                         \
+        x = mem[d];                                                                                                    \
+    }                                                                                                                  \
+    else                                                                                                               \
     {                                                                                                                  \
         OUT(OCTETS);                                                                                                   \
-        x = mcs51_left(self) > limit[d] ? mem[d] : function(self, d);                                                  \
+        x = function(self, d);                                                                                         \
         IN;                                                                                                            \
     }
 #define READ(x, d)  READ_BY(mcs51_read_limit, mcs51_read, x, d)
@@ -215,7 +238,7 @@
 #undef OPD
 #undef JOP
 #undef JOPD
-mcs51_handler_fn* const mcs51_handlers[3][256] = {{
+mcs51_handler_fn* const mcs51_handlers[4][256] = {{
 #define OP(opcode, ...)   [0x##opcode] = plain_##opcode,
 #define OPD(opcode, ...)  [0x##opcode] = plain_##opcode,
 #define JOP(opcode, ...)  [0x##opcode] = plain_##opcode,
@@ -230,6 +253,13 @@ mcs51_handler_fn* const mcs51_handlers[3][256] = {{
 #define OPD(opcode, ...) [0x##opcode] = acc_##opcode,
 #define JOP(opcode, ...)
 #define JOPD(opcode, ...) [0x##opcode] = acc_##opcode,
+                                                  {
+#include "ops.h"
+                                                  },
+#undef OPD
+#undef JOPD
+#define OPD(opcode, ...)  [0x##opcode] = port_##opcode,
+#define JOPD(opcode, ...) [0x##opcode] = port_##opcode,
                                                   {
 #include "ops.h"
                                                   },
@@ -277,7 +307,7 @@ void mcs51_decode_here(ARGUMENTS)
 static uint32_t quiet(const mcs51_t* self, unsigned d)
 {
     uint64_t cycles = (uint64_t)mcs51_left(self);
-    const uint64_t now = mcs51_cycle(self);
+    const uint64_t now = mcs51_now(self);
     for (unsigned n = 0; d == TCON && n < 2; ++n)
     {
         const uint64_t at = mcs51_timer_next(self, n);

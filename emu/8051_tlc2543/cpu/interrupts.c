@@ -52,9 +52,10 @@ static void push(mcs51_t* self, unsigned octet)
     mcs51_seen(self, MCS51_IRAM, at, (uint8_t)octet, true);
 }
 
-bool mcs51_interrupt(mcs51_t* self, uint64_t now)
+bool mcs51_interrupt(mcs51_t* self, uint64_t now, uint64_t* next)
 {
     unsigned high = 0, due = requests(self, &high);
+    *next = due ? now + 1u : MCS51_NEVER;
     if (!due || self->gate_at >= now)
     {
         return false;
@@ -100,8 +101,8 @@ bool mcs51_interrupt(mcs51_t* self, uint64_t now)
 
 void mcs51_reti(mcs51_t* self)
 {
-    const uint64_t now = mcs51_cycle(self);
+    const uint64_t now = mcs51_now(self);
     self->in_service &= self->in_service & 2u ? 1u : 0u;
     self->gate_at = now;
-    mcs51_look_at(self, now);
+    mcs51_look_at(self, mcs51_interrupt_next(self, now));
 }

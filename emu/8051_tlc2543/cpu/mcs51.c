@@ -55,7 +55,7 @@ void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const ch
 
 uint64_t mcs51_cycle(const mcs51_t* self)
 {
-    return self->horizon - (uint64_t)(int64_t)mcs51_left(self);
+    return mcs51_now(self);
 }
 
 uint64_t mcs51_instructions(const mcs51_t* self)
@@ -72,7 +72,7 @@ void mcs51_look_at(mcs51_t* self, uint64_t cycle)
 {
     if (cycle <= self->horizon)
     {
-        const uint64_t now = mcs51_cycle(self);
+        const uint64_t now = mcs51_now(self);
         self->horizon = cycle - 1u;
         mcs51_set_left(self, (int64_t)(cycle - now) - 1);
     }
@@ -92,15 +92,28 @@ static uint64_t earlier(uint64_t a, uint64_t b)
     return a < b ? a : b;
 }
 
-static void set_horizon(mcs51_t* self, uint64_t now)
+/// request: boundary at which an interrupt is to be looked at.
+static void set_horizon(mcs51_t* self, uint64_t now, uint64_t request)
 {
     uint64_t next = earlier(self->until, now + LONGEST_SLICE);
-    next = earlier(next, mcs51_interrupt_next(self, now));
+    next = earlier(next, request);
     next = earlier(next, earlier(self->periph_at, earlier(self->wdt_due, self->rst_due)));
     next = earlier(next, mcs51_overflow_next(self));
     self->horizon = (next > now ? next : now) - 1u;
     self->instructions += (uint32_t)self->budget;
     self->budget = (int64_t)(self->horizon - now) * (INT64_C(1) << 32);
+}
+
+void mcs51_look_ahead(mcs51_t* self, uint64_t now)
+{
+    if (mcs51_left(self) < 0)
+    {
+        mcs51_look_at(self, now);
+    }
+    else
+    {
+        set_horizon(self, now, mcs51_interrupt_next(self, now));
+    }
 }
 
 /// The oscillator stands still: nothing counts for that long.
@@ -119,7 +132,7 @@ static mcs51_stop_t run(mcs51_t* self)
 {
     for (;;)
     {
-        const uint64_t now = mcs51_cycle(self);
+        const uint64_t now = mcs51_now(self);
         if (mcs51_reset_due(self, earlier(now, self->until)))
         {
             continue;
@@ -137,6 +150,7 @@ static mcs51_stop_t run(mcs51_t* self)
         if (limit >= self->overflow_at)
         {
             mcs51_timers_sync(self, limit);
+            self->overflow_at = MCS51_NEVER;
         }
         if (self->stop)
         {
@@ -149,7 +163,7 @@ static mcs51_stop_t run(mcs51_t* self)
         }
         if (self->in_reset)
         {
-            set_horizon(self, now);
+            set_horizon(self, now, MCS51_NEVER);
             mcs51_set_left(self, -1);
             continue;
         }
@@ -158,11 +172,12 @@ static mcs51_stop_t run(mcs51_t* self)
             mcs51_watchdog_reset(self);
             continue;
         }
-        if (mcs51_interrupt(self, now))
+        uint64_t request;
+        if (mcs51_interrupt(self, now, &request))
         {
             continue;
         }
-        set_horizon(self, now);
+        set_horizon(self, now, request);
         if (self->mem[PCON] & PCON_IDL)
         {
             if ((self->mem[AUXR] & AUXR_WDIDLE) && self->wdt_due != MCS51_NEVER)

@@ -117,10 +117,11 @@ struct mcs51_t
     uint64_t gate_at;            ///< end of the last RETI or write to IE or IP: no vector at this boundary
     uint64_t timer_at;           ///< TL0 TH0 TL1 TH1 are true at this cycle
     uint64_t t1_overflows, t2_overflows;
-    uint64_t t2_told;     ///< overflows of timer 2 that the clock on P1.0 shows
-    uint64_t overflow_at; ///< next overflow that requests an interrupt
-    uint64_t periph_at;   ///< next cycle at which the ports or the UART do something
-    uint64_t frozen;      ///< cycles spent in power-down, in which no clock ran
+    uint64_t t2_told;           ///< overflows of timer 2 that the clock on P1.0 shows
+    uint64_t overflow_at;       ///< next overflow that requests an interrupt
+    uint64_t periph_at;         ///< next cycle at which the ports or the UART do something
+    uint64_t tx_at, t2_edge_at; ///< of those, the transmitter's and the clock's on T2
+    uint64_t frozen;            ///< cycles spent in power-down, in which no clock ran
     uint64_t wdt_due;
     bool wdt_armed; ///< 1Eh was written to WDTRST
     uint8_t outside[4], out[4];
@@ -156,6 +157,10 @@ static inline int32_t mcs51_left(const mcs51_t* self)
 {
     return (int32_t)(self->budget >> 32);
 }
+static inline uint64_t mcs51_now(const mcs51_t* self)
+{
+    return self->horizon - (uint64_t)(int64_t)mcs51_left(self);
+}
 static inline void mcs51_set_left(mcs51_t* self, int64_t left)
 {
     self->budget = left * (INT64_C(1) << 32) + (uint32_t)self->budget;
@@ -166,6 +171,7 @@ extern const int32_t mcs51_read_limit[256], mcs51_latch_limit[256], mcs51_write_
 uint8_t mcs51_read(mcs51_t* self, unsigned address);
 uint8_t mcs51_read_latch(mcs51_t* self, unsigned address); ///< for read-modify-write
 void mcs51_write(mcs51_t* self, unsigned address, uint8_t value);
+void mcs51_write_port(mcs51_t* self, unsigned address, uint8_t value);
 uint8_t mcs51_psw(const mcs51_t* self);
 
 int mcs51_memory_create(mcs51_t* self);                    ///< of the size that the configuration says; 0, or -1
@@ -186,15 +192,34 @@ void mcs51_watchdog_reset(mcs51_t* self);
 
 /// Come back to the run loop at the first instruction boundary at or after `cycle`.
 void mcs51_look_at(mcs51_t* self, uint64_t cycle);
+/// Find the horizon anew, after anything that can move it, at the end of an instruction.
+void mcs51_look_ahead(mcs51_t* self, uint64_t now);
 void mcs51_reti(mcs51_t* self);
 /// Take the request that is due at this boundary. \return whether one was taken (two cycles passed).
-bool mcs51_interrupt(mcs51_t* self, uint64_t now);
+/// If none, *next is mcs51_interrupt_next().
+bool mcs51_interrupt(mcs51_t* self, uint64_t now, uint64_t* next);
 /// First boundary at which a request can be taken that cannot be taken now, or MCS51_NEVER.
 uint64_t mcs51_interrupt_next(mcs51_t* self, uint64_t now);
 void mcs51_raise(mcs51_t* self, unsigned irq, unsigned sfr, uint8_t flag, uint64_t at);
 
 /// Fire what ports and UART do by themselves, up to and with cycle t. Timers are brought up to date apart, where they matter.
-void mcs51_sync(mcs51_t* self, uint64_t t);
+void mcs51_sync_events(mcs51_t* self, uint64_t t);
+static inline void mcs51_sync(mcs51_t* self, uint64_t t)
+{
+    if (self->periph_at <= t)
+    {
+        mcs51_sync_events(self, t);
+    }
+}
+/// An instruction that ends at now writes a register.
+static inline void mcs51_before_write(mcs51_t* self, uint64_t now)
+{
+    if (now > self->until && self->config.sync)
+    {
+        self->config.sync(self->config.ctx, now);
+    }
+    mcs51_sync(self, now);
+}
 /// Find periph_at anew, after anything that can move it.
 void mcs51_plan(mcs51_t* self);
 
@@ -226,6 +251,7 @@ void mcs51_uart_reset(mcs51_t* self);
 uint64_t mcs51_uart_tx_time(const mcs51_t* self);
 uint64_t mcs51_uart_rx_time(const mcs51_t* self);
 void mcs51_uart_tx(mcs51_t* self, uint64_t at);
+void mcs51_uart_clock_changes(mcs51_t* self); ///< PCON or T2CON is about to be written; the timers are synced
 void mcs51_uart_rx(mcs51_t* self, uint64_t at);
 void mcs51_uart_rxd_fell(mcs51_t* self);
 void mcs51_uart_sbuf(mcs51_t* self, uint8_t value, uint64_t now);

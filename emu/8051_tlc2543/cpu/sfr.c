@@ -59,6 +59,11 @@ static bool absent(const mcs51_t* self, unsigned address)
     return !((unsigned)self->part->sfrs[(address - 0x80u) >> 3] >> (address & 7u) & 1u);
 }
 
+static bool is_port(unsigned address)
+{
+    return (address & 0xCFu) == P0;
+}
+
 static void report_absent(mcs51_t* self, unsigned address)
 {
     uint8_t* const seen = &self->absent_sfr[(address - 0x80u) >> 3];
@@ -86,23 +91,26 @@ static uint8_t read_synced(mcs51_t* self, unsigned address)
         mcs51_report(self, EMU_GUEST_ERROR, ONCE_WDTRST, "WDTRST is write only", address);
         return MCS51_ABSENT_SFR;
     }
-    const uint64_t now = mcs51_cycle(self);
+    const uint64_t now = mcs51_now(self);
     if (now > self->until && self->config.sync)
     {
         self->config.sync(self->config.ctx, now);
     }
     mcs51_sync(self, now);
-    mcs51_timers_sync(self, now);
+    if (address != SCON && address != SBUF) // those only events change
+    {
+        mcs51_timers_sync(self, now);
+    }
     return self->mem[address];
 }
 
 uint8_t mcs51_read(mcs51_t* self, unsigned address)
 {
-    if ((address & 0xCFu) != P0)
+    if (!is_port(address))
     {
         return read_synced(self, address);
     }
-    const uint64_t now = mcs51_cycle(self);
+    const uint64_t now = mcs51_now(self);
     if (self->config.sync)
     {
         self->config.sync(self->config.ctx, now);
@@ -144,52 +152,86 @@ static void write_watchdog(mcs51_t* self, uint8_t value, uint64_t now)
     if (value == 0xE1u && self->wdt_armed)
     {
         self->wdt_due = now + MCS51_WDT_CYCLES;
-        mcs51_look_at(self, now);
+        mcs51_look_ahead(self, now);
     }
     self->wdt_armed = value == 0x1Eu;
 }
 
-void mcs51_write(mcs51_t* self, unsigned address, uint8_t value)
+/// Registers without a part in what happens by itself. \return whether address is one.
+static bool write_quiet(mcs51_t* self, unsigned address, uint8_t value, uint64_t now)
 {
-    const uint64_t now = mcs51_cycle(self);
-    uint8_t* const mem = self->mem;
-    const uint8_t old = mem[address];
+    switch (address)
+    {
+    case PSW:
+        self->mem[PSW] = value;
+        self->cy = value >> 7;
+        self->fx = (value & 0x40u) >> 2 | (value & 0x04u) << 5;
+        return true;
+    case AUXR1:
+        self->mem[AUXR1] = value;
+        self->dptr = value & 1u ? DP1L : DP0L;
+        return true;
+    case WDTRST:
+        write_watchdog(self, value, now);
+        return true;
+    default:
+        return false;
+    }
+}
 
+/// The horizon after a write: nearer where the register can only bring something nearer, else found anew.
+static void look_after_write(mcs51_t* self, unsigned address, uint64_t now)
+{
+    switch (address)
+    {
+    case TL0:
+    case TH0:
+        mcs51_look_at(self, mcs51_overflow_next(self));
+        break;
+    case SBUF:
+        mcs51_plan(self);
+        mcs51_look_at(self, self->periph_at);
+        break;
+    case SCON:
+        mcs51_plan(self);
+        mcs51_look_at(self, self->periph_at);
+        mcs51_look_at(self, mcs51_interrupt_next(self, now));
+        break;
+    case PCON:
+        mcs51_plan(self);
+        mcs51_look_at(self, now);
+        break;
+    default:
+        mcs51_plan(self);
+        mcs51_look_ahead(self, now);
+        break;
+    }
+}
+
+static void write_register(mcs51_t* self, unsigned address, uint8_t value)
+{
+    const uint64_t now = mcs51_now(self);
+    uint8_t* const mem = self->mem;
     if (absent(self, address))
     {
         report_absent(self, address);
         return;
     }
-    if (now > self->until && self->config.sync)
+    mcs51_before_write(self, now);
+    if (write_quiet(self, address, value, now))
     {
-        self->config.sync(self->config.ctx, now);
+        return;
     }
-    mcs51_sync(self, now);
-    switch (address)
+    const uint8_t old = mem[address];
+    const bool mode = address == SCON && (value ^ old) >> 6;
+    if (address != SCON || mode)
     {
-    case P0:
-    case P1:
-    case P2:
-    case P3:
-        mem[address] = value;
-        mcs51_port_drive(self, (address >> 4) & 3u, now);
-        return;
-    case PSW:
-        mem[PSW] = value;
-        self->cy = value >> 7;
-        self->fx = (value & 0x40u) >> 2 | (value & 0x04u) << 5;
-        return;
-    case AUXR1:
-        mem[AUXR1] = value;
-        self->dptr = value & 1u ? DP1L : DP0L;
-        return;
-    case WDTRST:
-        write_watchdog(self, value, now);
-        return;
-    default:
-        break;
+        mcs51_timers_sync(self, now);
     }
-    mcs51_timers_sync(self, now);
+    if (address == PCON || address == T2CON)
+    {
+        mcs51_uart_clock_changes(self);
+    }
     switch (address)
     {
     case SBUF: // mem holds the receive buffer
@@ -221,6 +263,17 @@ void mcs51_write(mcs51_t* self, unsigned address, uint8_t value)
         mem[address] = value;
         break;
     }
-    mcs51_plan(self);
-    mcs51_look_at(self, now);
+    look_after_write(self, address, now);
+}
+
+void mcs51_write(mcs51_t* self, unsigned address, uint8_t value)
+{
+    if (is_port(address))
+    {
+        mcs51_write_port(self, address, value);
+    }
+    else
+    {
+        write_register(self, address, value);
+    }
 }

@@ -28,9 +28,8 @@ uint8_t mcs51_port_pins(const mcs51_t* self, unsigned port)
 
 static void inputs_changed(mcs51_t* self, unsigned port, uint64_t at)
 {
-    const unsigned changed = port == 3   ? (mcs51_port_pins(self, 3) ^ self->p3_sampled) & SAMPLED
-                             : port == 1 ? (mcs51_port_pins(self, 1) ^ self->p1_sampled) & self->p1_watched
-                                         : 0u;
+    const unsigned changed = port == 3 ? (mcs51_port_pins(self, 3) ^ self->p3_sampled) & SAMPLED
+                                       : (mcs51_port_pins(self, 1) ^ self->p1_sampled) & self->p1_watched;
     if (changed && self->pins_due == MCS51_NEVER)
     {
         self->pins_due = at + 1u;
@@ -42,12 +41,27 @@ static void inputs_changed(mcs51_t* self, unsigned port, uint64_t at)
 void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at)
 {
     const uint8_t out = drive(self, port), changed = out ^ self->out[port];
+    if (!changed)
+    {
+        return;
+    }
     self->out[port] = out;
-    inputs_changed(self, port, at);
-    if (changed && self->config.port)
+    if (port == 3 || (port == 1 && self->p1_watched))
+    {
+        inputs_changed(self, port, at);
+    }
+    if (self->config.port)
     {
         self->config.port(self->config.ctx, port, out, changed, at);
     }
+}
+
+void mcs51_write_port(mcs51_t* self, unsigned address, uint8_t value)
+{
+    const uint64_t now = mcs51_now(self);
+    mcs51_before_write(self, now);
+    self->mem[address] = value;
+    mcs51_port_drive(self, address >> 4 & 3u, now);
 }
 
 void mcs51_alternate(mcs51_t* self, unsigned port, uint8_t mask, bool level, uint64_t at)
@@ -105,11 +119,13 @@ void mcs51_pins_sample(mcs51_t* self, uint64_t at)
 
 void mcs51_plan(mcs51_t* self)
 {
-    self->periph_at = earlier(earlier(self->pins_due, mcs51_t2_edge_time(self)),
-                              earlier(mcs51_uart_tx_time(self), mcs51_uart_rx_time(self)));
+    self->tx_at = mcs51_uart_tx_time(self);
+    self->t2_edge_at = mcs51_t2_edge_time(self);
+    self->periph_at =
+        earlier(earlier(self->pins_due, self->t2_edge_at), earlier(self->tx_at, mcs51_uart_rx_time(self)));
 }
 
-void mcs51_sync(mcs51_t* self, uint64_t t)
+void mcs51_sync_events(mcs51_t* self, uint64_t t)
 {
     while (self->periph_at <= t)
     {
@@ -119,11 +135,11 @@ void mcs51_sync(mcs51_t* self, uint64_t t)
         {
             mcs51_pins_sample(self, at);
         }
-        else if (mcs51_t2_edge_time(self) <= at)
+        else if (self->t2_edge_at <= at)
         {
             mcs51_t2_edge(self, at);
         }
-        else if (mcs51_uart_tx_time(self) <= at)
+        else if (self->tx_at <= at)
         {
             mcs51_uart_tx(self, at);
         }

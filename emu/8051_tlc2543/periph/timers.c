@@ -11,18 +11,18 @@ enum
     TMOD_GATE = 0x08
 };
 
-static unsigned mode(const mcs51_t* self, unsigned n)
+static inline unsigned mode(const mcs51_t* self, unsigned n)
 {
     return self->mem[TMOD] >> 4 * n & 3u;
 }
 
 /// With timer 0 in mode 3, TH0 has taken TR1 and TF1; timer 1 runs free unless it is in mode 3 itself, and only makes baud.
-static bool split(const mcs51_t* self)
+static inline bool split(const mcs51_t* self)
 {
     return mode(self, 0) == 3;
 }
 
-static bool enabled(const mcs51_t* self, unsigned n)
+static inline bool enabled(const mcs51_t* self, unsigned n)
 {
     const unsigned tmod = self->mem[TMOD] >> 4 * n;
     if (n == 1 && (split(self) || mode(self, 1) == 3))
@@ -32,12 +32,12 @@ static bool enabled(const mcs51_t* self, unsigned n)
     return (self->mem[TCON] >> (4 + 2 * n) & 1u) && (!(tmod & TMOD_GATE) || (self->p3_sampled >> (2 + n) & 1u));
 }
 
-static bool counts_cycles(const mcs51_t* self, unsigned n)
+static inline bool counts_cycles(const mcs51_t* self, unsigned n)
 {
     return enabled(self, n) && !(self->mem[TMOD] >> 4 * n & TMOD_COUNTER);
 }
 
-static mcs51_counter_t counter(const mcs51_t* self, unsigned n)
+static inline mcs51_counter_t counter(const mcs51_t* self, unsigned n)
 {
     const unsigned tl = self->mem[TL0 + n], th = self->mem[TH0 + n];
     switch (mode(self, n))
@@ -54,7 +54,7 @@ static mcs51_counter_t counter(const mcs51_t* self, unsigned n)
 }
 
 /// Counts after the last overflow, or without one, back into the registers. Mode 0 clears the upper bits of TL ([U]: indeterminate).
-static void store(mcs51_t* self, unsigned n, const mcs51_counter_t* c)
+static inline void store(mcs51_t* self, unsigned n, const mcs51_counter_t* c)
 {
     uint8_t* const tl = &self->mem[TL0 + n];
     uint8_t* const th = &self->mem[TH0 + n];
@@ -92,7 +92,7 @@ static void overflowed(mcs51_t* self, unsigned n, uint64_t at)
     mcs51_raise(self, n ? IRQ_T1 : IRQ_T0, TCON, (uint8_t)(0x20u << 2 * n), at);
 }
 
-static void count(mcs51_t* self, unsigned n, uint64_t k, uint64_t from)
+static inline void count(mcs51_t* self, unsigned n, uint64_t k, uint64_t from)
 {
     mcs51_counter_t c = counter(self, n);
     uint64_t first;

@@ -62,9 +62,41 @@ static uint64_t cycle_of(const mcs51_t* self, unsigned clock, uint64_t due)
     }
 }
 
+/// Bits from tx_bit on that leave TXD as it is and end nothing.
+static unsigned tx_quiet_bits(const mcs51_t* self)
+{
+    const uart_t* const u = &self->uart;
+    const unsigned level = self->alternate[3] & P3_TXD ? 1u : 0u;
+    unsigned n = 0;
+    while (uart_mode(self) != 0 && u->tx_bit + n + 1u < u->tx_bits && (u->tx_frame >> (u->tx_bit + n) & 1u) == level)
+    {
+        ++n;
+    }
+    return n;
+}
+
+static void tx_pass(mcs51_t* self, unsigned bits)
+{
+    self->uart.tx_bit = (uint8_t)(self->uart.tx_bit + bits);
+    self->uart.tx_due += (uint64_t)bits * 16u * unit(self, T2CON_TCLK);
+}
+
+void mcs51_uart_clock_changes(mcs51_t* self)
+{
+    uart_t* const u = &self->uart;
+    for (unsigned n = u->tx_due == MCS51_NEVER ? 0 : tx_quiet_bits(self);
+         n > 0 && u->tx_due <= tick(self, by_t2(self, T2CON_TCLK)); --n)
+    {
+        tx_pass(self, 1);
+    }
+}
+
 uint64_t mcs51_uart_tx_time(const mcs51_t* self)
 {
-    return cycle_of(self, T2CON_TCLK, self->uart.tx_due);
+    const uint64_t due = self->uart.tx_due;
+    return due == MCS51_NEVER
+               ? due
+               : cycle_of(self, T2CON_TCLK, due + (uint64_t)tx_quiet_bits(self) * 16u * unit(self, T2CON_TCLK));
 }
 
 uint64_t mcs51_uart_rx_time(const mcs51_t* self)
@@ -132,6 +164,7 @@ void mcs51_uart_tx(mcs51_t* self, uint64_t at)
         shift_out(self, at);
         return;
     }
+    tx_pass(self, tx_quiet_bits(self));
     const bool level = u->tx_frame >> u->tx_bit & 1u;
     if (++u->tx_bit == u->tx_bits)
     {

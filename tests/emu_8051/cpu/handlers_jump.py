@@ -10,7 +10,7 @@ import re
 import subprocess
 import sys
 
-HANDLER = r"(plain|acc|effect)_[0-9A-Fa]{2}\b|mcs51_(one|leave|poll|count|decode_here)\b"
+HANDLER = r"(plain|acc|port|effect)_[0-9A-Fa]{2}\b|mcs51_(one|leave|poll|count|decode_here)\b"
 CALL = re.compile(r"\t(?:callq?|blr?|jalr?|bctrl)\s+(.*)")
 
 
