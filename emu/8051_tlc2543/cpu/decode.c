@@ -41,16 +41,17 @@ static bool waits(unsigned d)
     return d < 0x80u || d == SCON || d == TCON || (d & 0xCFu) == P0;
 }
 
+enum
+{
+    POLL_OCTETS = 3
+};
+
 /// JB or JNB to itself, or one of JB, JNB, JBC that leaves a loop before an SJMP back to it.
 static void find_poll(const mcs51_t* self, uint32_t pc, entry_t* e)
 {
     enum
     {
-        JBC = 0x10,
-        JB = 0x20,
-        JNB = 0x30,
-        SJMP = 0x80,
-        BACK = 0xFB
+        BACK = 0xFB ///< from behind the SJMP to the poll
     };
     e->turn = 0;
     if ((e->opcode != JBC && e->opcode != JB && e->opcode != JNB) || !waits(e->o1))
@@ -62,7 +63,7 @@ static void find_poll(const mcs51_t* self, uint32_t pc, entry_t* e)
         e->turn = 2;
         e->until = e->opcode == JNB;
     }
-    else if (code_at(self, pc + 3u) == SJMP && code_at(self, pc + 4u) == BACK &&
+    else if (code_at(self, pc + POLL_OCTETS) == SJMP && code_at(self, pc + POLL_OCTETS + 1u) == BACK &&
              (e->opcode != JBC || (e->o1 & 0xCFu) != P0))
     {
         e->turn = 4;
@@ -92,7 +93,7 @@ static void choose(mcs51_t* self, uint32_t pc, entry_t* e)
     {
         e->run = mcs51_one;
     }
-    else if (e->turn && !self->no_spin)
+    else if (e->turn && !self->no_spin && !(self->marks[(pc + POLL_OCTETS) & 0xFFFFu] & MARK_BREAK))
     {
         e->run = mcs51_poll;
     }
@@ -146,12 +147,21 @@ void mcs51_decode(mcs51_t* self, uint32_t pc)
     }
 }
 
-void mcs51_choose(mcs51_t* self, uint32_t pc)
+static void choose_again(mcs51_t* self, uint32_t pc)
 {
     entry_t* const e = &self->entries[pc];
     if (e->run != mcs51_decode_here)
     {
         choose(self, pc, e);
+    }
+}
+
+void mcs51_choose(mcs51_t* self, uint32_t pc)
+{
+    choose_again(self, pc);
+    if (pc >= POLL_OCTETS) // of a waiting loop, this may be the jump back
+    {
+        choose_again(self, pc - POLL_OCTETS);
     }
 }
 

@@ -65,6 +65,15 @@ static inline uint32_t mcs51_target(unsigned kind, uint32_t next, unsigned opcod
     }
 }
 
+/// Opcodes that waiting loops are made of.
+enum
+{
+    JBC = 0x10,
+    JB = 0x20,
+    JNB = 0x30,
+    SJMP = 0x80
+};
+
 #define BIT_BYTE(b) ((b) < 0x80u ? 0x20u + ((b) >> 3) : (b)&0xF8u)
 #define BIT_MASK(b) (1u << ((b)&7u))
 

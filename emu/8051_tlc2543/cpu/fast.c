@@ -311,19 +311,52 @@ static uint32_t quiet(const mcs51_t* self, unsigned d)
     for (unsigned n = 0; d == TCON && n < 2; ++n)
     {
         const uint64_t at = mcs51_timer_next(self, n);
-        cycles = at <= now ? 0 : at - 1u - now < cycles ? at - 1u - now : cycles;
+        cycles = at - 1u - now < cycles ? at - 1u - now : cycles;
     }
     return (uint32_t)cycles;
 }
 
+static unsigned polled(mcs51_t* self, const entry_t* ip)
+{
+    const unsigned d = ip->o1;
+    return d < 0x80u ? self->mem[d] : ip->opcode == JBC ? mcs51_read_latch(self, d) : mcs51_read(self, d);
+}
+
 void mcs51_poll(ARGUMENTS)
 {
-    const unsigned d = ip->o1, octet = (d & 0xCFu) == P0 ? mcs51_port_pins(self, d >> 4 & 3u) : self->mem[d];
-    if (((octet & ip->o2) != 0) != ip->until)
+    const unsigned d = ip->o1;
+    if (d == TCON)
     {
-        self->budget -= (int64_t)(quiet(self, d) / ip->turn) * MCS51_SPENT(ip->turn, ip->turn / 2u);
+        mcs51_timers_sync(self, mcs51_now(self));
     }
-    INSTEAD(mcs51_handlers[ip->operand][ip->opcode])
+    const unsigned octet = (d & 0xCFu) == P0 ? mcs51_port_pins(self, d >> 4 & 3u) : self->mem[d];
+    if (((octet & ip->o2) != 0) == ip->until)
+    {
+        INSTEAD(mcs51_handlers[ip->operand][ip->opcode])
+    }
+    const bool jumps_back = ip->target != ip;
+    self->budget -= (int64_t)(quiet(self, d) / ip->turn) * MCS51_SPENT(ip->turn, ip->turn / 2u);
+    self->budget -= jumps_back ? MCS51_SPENT(2, 1) : 0;
+    if (mcs51_left(self) >= 2)
+    {
+        ENTER
+    }
+    // The next poll passes the horizon, and sees what is due until its end, if the jump back has not passed it before.
+    uint8_t* const mem = self->mem;
+    OUT(0);
+    if (self->budget >= 0)
+    {
+        self->budget -= MCS51_SPENT(2, 1);
+        if (((polled(self, ip) & ip->o2) != 0) == ip->until)
+        {
+            self->budget += MCS51_SPENT(2, 1); // the plain engine executes it
+        }
+        else
+        {
+            self->pc += jumps_back ? mcs51_opcodes[JBC].octets : 0u;
+        }
+    }
+    STOP
 }
 
 void mcs51_count(ARGUMENTS)

@@ -25,11 +25,16 @@ static unsigned requests(const mcs51_t* self, unsigned* high)
     {
         return 0;
     }
-    const unsigned flags = (tcon >> 1 & 1u) | (tcon >> 4 & 2u) | (tcon >> 1 & 4u) | (tcon >> 4 & 8u) |
-                           ((mem[SCON] & (SCON_RI | SCON_TI)) ? 16u : 0u) |
-                           (mem[T2CON] && (mem[T2CON] & mcs51_t2_requests(self)) ? 32u : 0u);
-    *high = flags & ie & mem[IP];
-    return self->in_service ? *high : flags & ie & 0x3Fu;
+    unsigned flags = (tcon >> 1 & 1u) | (tcon >> 4 & 2u) | (tcon >> 1 & 4u) | (tcon >> 4 & 8u);
+    flags |= mem[SCON] & (SCON_RI | SCON_TI) ? 16u : 0u;
+    flags |= mem[T2CON] && (mem[T2CON] & mcs51_t2_requests(self)) ? 32u : 0u;
+    flags &= ie & 0x3Fu;
+    if (!flags)
+    {
+        return 0;
+    }
+    *high = flags & mem[IP];
+    return self->in_service ? *high : flags;
 }
 
 uint64_t mcs51_interrupt_next(mcs51_t* self, uint64_t now)
@@ -85,6 +90,7 @@ bool mcs51_interrupt(mcs51_t* self, uint64_t now, uint64_t* next)
     {
         self->mem[TCON] &= (uint8_t)~cleared[irq];
     }
+    self->overflow_known = false;
     self->in_service |= is_high ? 2u : 1u;
     self->mem[PCON] &= (uint8_t)~PCON_IDL;
     if (self->observer.vector)

@@ -98,7 +98,7 @@ static void set_horizon(mcs51_t* self, uint64_t now, uint64_t request)
     uint64_t next = earlier(self->until, now + LONGEST_SLICE);
     next = earlier(next, request);
     next = earlier(next, earlier(self->periph_at, earlier(self->wdt_due, self->rst_due)));
-    next = earlier(next, mcs51_overflow_next(self));
+    next = earlier(next, self->overflow_known ? self->overflow_boundary : mcs51_overflow_next(self));
     self->horizon = (next > now ? next : now) - 1u;
     self->instructions += (uint32_t)self->budget;
     self->budget = (int64_t)(self->horizon - now) * (INT64_C(1) << 32);
@@ -120,6 +120,7 @@ void mcs51_look_ahead(mcs51_t* self, uint64_t now)
 static void freeze(mcs51_t* self, uint64_t now, uint64_t until)
 {
     self->timer_at += until - now;
+    self->overflow_known = false;
     self->frozen += until - now;
     self->wdt_due += self->wdt_due == MCS51_NEVER ? 0 : until - now;
     self->pins_due += self->pins_due == MCS51_NEVER ? 0 : until - now;
@@ -133,7 +134,8 @@ static mcs51_stop_t run(mcs51_t* self)
     for (;;)
     {
         const uint64_t now = mcs51_now(self);
-        if (mcs51_reset_due(self, earlier(now, self->until)))
+        if ((self->reset_request != RESET_NONE || self->rst_due <= now) &&
+            mcs51_reset_due(self, earlier(now, self->until)))
         {
             continue;
         }
@@ -151,6 +153,7 @@ static mcs51_stop_t run(mcs51_t* self)
         {
             mcs51_timers_sync(self, limit);
             self->overflow_at = MCS51_NEVER;
+            self->overflow_known = false;
         }
         if (self->stop)
         {
@@ -191,7 +194,7 @@ static mcs51_stop_t run(mcs51_t* self)
         {
             mcs51_fast(self);
         }
-        if (!self->stop && !self->self_jump)
+        if (self->budget >= 0 && !self->stop && !self->self_jump)
         {
             mcs51_plain(self, false);
         }
@@ -214,6 +217,7 @@ mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
 {
     self->until = until_cycle;
     self->running = true;
+    self->overflow_known = false;
     const mcs51_stop_t stop = run(self);
     self->running = false;
     return stop;

@@ -119,6 +119,8 @@ struct mcs51_t
     uint64_t t1_overflows, t2_overflows;
     uint64_t t2_told;           ///< overflows of timer 2 that the clock on P1.0 shows
     uint64_t overflow_at;       ///< next overflow that requests an interrupt
+    uint64_t overflow_boundary; ///< boundary at which it is looked at
+    bool overflow_known;        ///< nothing has moved them since
     uint64_t periph_at;         ///< next cycle at which the ports or the UART do something
     uint64_t tx_at, t2_edge_at; ///< of those, the transmitter's and the clock's on T2
     uint64_t frozen;            ///< cycles spent in power-down, in which no clock ran

@@ -35,6 +35,7 @@ static void reset(mcs51_t* self, bool power_on)
     self->halted = false;
     self->timer_at = now;
     self->overflow_at = MCS51_NEVER;
+    self->overflow_known = false;
     self->gate_at = 0;
     memset(self->flag_at, 0, sizeof self->flag_at);
     self->wdt_due = MCS51_NEVER;

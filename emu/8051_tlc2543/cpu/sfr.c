@@ -232,6 +232,7 @@ static void write_register(mcs51_t* self, unsigned address, uint8_t value)
     {
         mcs51_uart_clock_changes(self);
     }
+    self->overflow_known = self->overflow_known && (address == SCON || address == SBUF);
     switch (address)
     {
     case SBUF: // mem holds the receive buffer

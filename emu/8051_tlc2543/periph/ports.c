@@ -97,6 +97,7 @@ void mcs51_pins_sample(mcs51_t* self, uint64_t at)
     const uint8_t pins = mcs51_port_pins(self, 3), fell = (uint8_t)(self->p3_sampled & ~pins);
     mcs51_timers_sync(self, at); // with the old gates
     self->pins_due = MCS51_NEVER;
+    self->overflow_known = false;
     self->p3_sampled = pins;
     for (unsigned n = 0; n < 2; ++n)
     {

@@ -24,17 +24,18 @@ static inline bool split(const mcs51_t* self)
 
 static inline bool enabled(const mcs51_t* self, unsigned n)
 {
-    const unsigned tmod = self->mem[TMOD] >> 4 * n;
-    if (n == 1 && (split(self) || mode(self, 1) == 3))
+    const unsigned tmod = self->mem[TMOD];
+    if (n == 1 && ((tmod & 3u) == 3u || (tmod & 0x30u) == 0x30u))
     {
-        return mode(self, 1) != 3;
+        return (tmod & 0x30u) != 0x30u;
     }
-    return (self->mem[TCON] >> (4 + 2 * n) & 1u) && (!(tmod & TMOD_GATE) || (self->p3_sampled >> (2 + n) & 1u));
+    return (self->mem[TCON] >> (4 + 2 * n) & 1u) &&
+           (!(tmod >> 4 * n & TMOD_GATE) || (self->p3_sampled >> (2 + n) & 1u));
 }
 
 static inline bool counts_cycles(const mcs51_t* self, unsigned n)
 {
-    return enabled(self, n) && !(self->mem[TMOD] >> 4 * n & TMOD_COUNTER);
+    return !(self->mem[TMOD] >> 4 * n & TMOD_COUNTER) && enabled(self, n);
 }
 
 static inline mcs51_counter_t counter(const mcs51_t* self, unsigned n)
@@ -95,6 +96,12 @@ static void overflowed(mcs51_t* self, unsigned n, uint64_t at)
 static inline void count(mcs51_t* self, unsigned n, uint64_t k, uint64_t from)
 {
     mcs51_counter_t c = counter(self, n);
+    if (k < c.left)
+    {
+        c.left -= k;
+        store(self, n, &c);
+        return;
+    }
     uint64_t first;
     const uint64_t overflows = mcs51_advance(&c, k, &first);
     store(self, n, &c);
@@ -102,7 +109,7 @@ static inline void count(mcs51_t* self, unsigned n, uint64_t k, uint64_t from)
     {
         self->t1_overflows += overflows;
     }
-    if (overflows && !(n == 1 && split(self)))
+    if (!(n == 1 && split(self)))
     {
         overflowed(self, n, from + first);
     }
@@ -128,7 +135,10 @@ void mcs51_timers_sync(mcs51_t* self, uint64_t t)
             count(self, n, k, from);
         }
     }
-    mcs51_t2_sync(self, from, k);
+    if (self->mem[T2CON])
+    {
+        mcs51_t2_sync(self, from, k);
+    }
     if (th0_runs(self))
     {
         mcs51_counter_t c = {0x100u - self->mem[TH0], 0x100u};
@@ -182,6 +192,8 @@ uint64_t mcs51_overflow_next(mcs51_t* self)
         self->overflow_at = at < self->overflow_at ? at : self->overflow_at;
         boundary = at < boundary ? at : boundary;
     }
+    self->overflow_boundary = boundary;
+    self->overflow_known = true;
     return boundary;
 }
 

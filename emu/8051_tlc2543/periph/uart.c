@@ -66,13 +66,16 @@ static uint64_t cycle_of(const mcs51_t* self, unsigned clock, uint64_t due)
 static unsigned tx_quiet_bits(const mcs51_t* self)
 {
     const uart_t* const u = &self->uart;
-    const unsigned level = self->alternate[3] & P3_TXD ? 1u : 0u;
-    unsigned n = 0;
-    while (uart_mode(self) != 0 && u->tx_bit + n + 1u < u->tx_bits && (u->tx_frame >> (u->tx_bit + n) & 1u) == level)
+    const uint32_t level = self->alternate[3] & P3_TXD ? UINT32_MAX : 0u;
+    unsigned n = u->tx_bit;
+    if (uart_mode(self) != 0)
     {
-        ++n;
+        for (uint32_t differs = (u->tx_frame ^ level) >> n; n + 1u < u->tx_bits && !(differs & 1u); differs >>= 1)
+        {
+            ++n;
+        }
     }
-    return n;
+    return n - u->tx_bit;
 }
 
 static void tx_pass(mcs51_t* self, unsigned bits)
