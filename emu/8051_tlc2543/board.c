@@ -66,7 +66,7 @@ static void net_changed(void* ctx, bool level, emu_time_t at)
 {
     acq_net_t* const net = ctx;
     acq_board_t* const self = net->board;
-    if (net != self->driven)
+    if (net != self->driven && !net->cut)
     {
         set_outside(net, level, at == self->synced_at ? self->synced : emu_ticker_tick(&self->clock, at));
     }
@@ -103,9 +103,9 @@ static void port_changed(void* ctx, unsigned port, uint8_t out, uint8_t changed,
         const acq_net_t* const outer = self->driven;
         const bool released = (out & net->mask) != 0;
         self->driven = net;
-        emu_wire_drive(&net->wire, CPU, released ? high : EMU_STRONG0, self->sched->now);
+        emu_wire_drive(&net->wire, CPU, net->cut ? EMU_Z : released ? high : EMU_STRONG0, self->sched->now);
         self->driven = outer;
-        if (released && net->wire.level != ((self->outside[port] & net->mask) != 0))
+        if (released && !net->cut && net->wire.level != ((self->outside[port] & net->mask) != 0))
         {
             set_outside(net, net->wire.level, cycle);
         }
@@ -286,7 +286,7 @@ mcs51_t* acq_board_cpu(acq_board_t* self)
     return self->cpu;
 }
 
-emu_wire_t* acq_board_wire(acq_board_t* self, const char* name)
+static acq_net_t* find_net(acq_board_t* self, const char* name)
 {
     char other[ACQ_NAME];
     for (unsigned i = 0; i < ACQ_PINS; i++)
@@ -295,7 +295,7 @@ emu_wire_t* acq_board_wire(acq_board_t* self, const char* name)
         pin_name(net, other);
         if (strcmp(name, net->name) == 0 || strcmp(name, other) == 0)
         {
-            return &net->wire;
+            return net;
         }
     }
     for (unsigned i = 0; i < ROLES * self->config.adc_count; i++)
@@ -303,10 +303,35 @@ emu_wire_t* acq_board_wire(acq_board_t* self, const char* name)
         role_name(i, other);
         if (strcmp(name, other) == 0)
         {
-            return &net_of(self, i)->wire;
+            return net_of(self, i);
         }
     }
     return NULL;
+}
+
+emu_wire_t* acq_board_wire(acq_board_t* self, const char* name)
+{
+    acq_net_t* const net = find_net(self, name);
+    return net == NULL ? NULL : &net->wire;
+}
+
+int acq_board_cut(acq_board_t* self, const char* name, bool cut)
+{
+    acq_net_t* const net = find_net(self, name);
+    if (net == NULL)
+    {
+        return -1;
+    }
+    const bool released = (mcs51_port_out(self->cpu, net->port) & net->mask) != 0;
+    net->cut = cut;
+    emu_wire_drive(&net->wire, CPU,
+                   cut              ? EMU_Z
+                   : !released      ? EMU_STRONG0
+                   : net->port == 0 ? EMU_Z
+                                    : EMU_WEAK1,
+                   self->sched->now);
+    set_outside(net, cut ? net->port != 0 || net->wire.level : net->wire.level, mcs51_cycle(self->cpu));
+    return 0;
 }
 
 bool acq_board_pin(const acq_board_t* self, unsigned port, unsigned bit)

@@ -13,6 +13,7 @@ typedef struct acq_net_t
 {
     acq_board_t* board;
     uint8_t port, mask;
+    bool cut;            ///< between the CPU's pin and the rest of the net
     char name[ACQ_NAME]; ///< of the wire
     emu_wire_t wire;
 } acq_net_t;

@@ -44,6 +44,7 @@ static void walk(acq_board_t* self, emu_state_t* io)
     for (unsigned i = 0; i < ACQ_PINS && !io->bad; i++)
     {
         emu_wire_state(&self->nets[i / 8u][i % 8u].wire, io);
+        emu_state_bool(io, &self->nets[i / 8u][i % 8u].cut);
     }
     emu_state_octets(io, self->outside, sizeof self->outside);
     mcs51_state(self->cpu, io);

@@ -112,4 +112,72 @@ TEST(trace, records_the_level_at_the_start_and_each_change)
     EXPECT_TRUE(
         (lines == std::vector<line_t>{{"EOC", true, 3}, {"/CS", false, 3}, {"EOC", false, 7}, {"/CS", true, 9}}));
 }
+struct told_t
+{
+    std::vector<bool> levels;
+    static void level(void* ctx, bool level, emu_time_t) { static_cast<told_t*>(ctx)->levels.push_back(level); }
+};
+
+TEST(wire, a_supply_wins_over_any_driver_until_it_is_taken_away)
+{
+    for (const emu_rail_t rail : {EMU_RAIL_GND, EMU_RAIL_VCC})
+    {
+        for (const emu_drive_t drive : {EMU_Z, EMU_WEAK0, EMU_WEAK1, EMU_STRONG0, EMU_STRONG1})
+        {
+            emu_wire_t w;
+            emu_wire_init(&w, "w", rail == EMU_RAIL_GND);
+            const int d = emu_wire_add_driver(&w);
+            told_t told;
+            ASSERT_EQ(emu_wire_watch(&w, told_t::level, &told), 0);
+            emu_wire_short(&w, rail, 1);
+            emu_wire_drive(&w, d, drive, 2);
+            EXPECT_EQ(w.level, rail == EMU_RAIL_VCC) << drive;
+            EXPECT_FALSE(w.floating);
+            EXPECT_EQ(told.levels, std::vector<bool>{rail == EMU_RAIL_VCC});
+            emu_wire_short(&w, EMU_RAIL_NONE, 3);
+            const bool alone = drive == EMU_Z ? rail == EMU_RAIL_VCC : drive == EMU_WEAK1 || drive == EMU_STRONG1;
+            EXPECT_EQ(w.level, alone) << drive;
+            EXPECT_EQ(w.floating, drive == EMU_Z);
+        }
+    }
+}
+
+/// As one net with all drivers of both, at every step of a walk over what two drivers can do.
+TEST(wire, two_nets_shorted_are_one)
+{
+    emu_wire_t one, other, whole;
+    emu_wire_init(&one, "one", true);
+    emu_wire_init(&other, "other", true);
+    emu_wire_init(&whole, "whole", true);
+    const int a = emu_wire_add_driver(&one), b = emu_wire_add_driver(&other);
+    const int c = emu_wire_add_driver(&whole), d = emu_wire_add_driver(&whole);
+    told_t told, told_whole;
+    ASSERT_EQ(emu_wire_watch(&other, told_t::level, &told), 0);
+    ASSERT_EQ(emu_wire_watch(&whole, told_t::level, &told_whole), 0);
+    ASSERT_EQ(emu_wire_bridge(&one, &other, 0), 0);
+    EXPECT_EQ(emu_wire_bridge(&one, &whole, 0), -1);
+    EXPECT_EQ(emu_wire_bridge(&whole, &whole, 0), -1);
+    unsigned random = 1;
+    for (int step = 0; step < 2000; step++)
+    {
+        random = random * 1103515245u + 12345u;
+        const auto drive = static_cast<emu_drive_t>((random >> 16) % 5u);
+        const bool first = (random >> 24 & 1u) != 0;
+        emu_wire_drive(first ? &one : &other, first ? a : b, drive, step);
+        emu_wire_drive(&whole, first ? c : d, drive, step);
+        ASSERT_EQ(one.level, whole.level) << step;
+        ASSERT_EQ(other.level, whole.level) << step;
+        ASSERT_EQ(one.floating && other.floating, whole.floating) << step;
+    }
+    EXPECT_EQ(told.levels, told_whole.levels);
+    emu_wire_drive(&one, a, EMU_STRONG0, 3000);
+    emu_wire_drive(&other, b, EMU_WEAK1, 3000);
+    EXPECT_FALSE(other.level);
+    emu_wire_unbridge(&other, 3001);
+    EXPECT_TRUE(!one.level && other.level);
+    emu_wire_drive(&one, a, EMU_STRONG1, 3002);
+    emu_wire_drive(&other, b, EMU_STRONG0, 3002);
+    EXPECT_TRUE(one.level && !other.level);
+}
+
 } // namespace

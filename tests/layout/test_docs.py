@@ -22,7 +22,7 @@ def keys(schema: type) -> set[str]:
 
 
 def test_every_scenario_key_is_documented():
-    page = (ROOT / "docs/scenarios.md").read_text(encoding="utf-8")
+    page = "".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("scenarios.md", "faults.md"))
     missing = [
         key
         for key in sorted(keys(scenario.Tables))

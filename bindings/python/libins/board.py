@@ -20,7 +20,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from libins import cdb, run, scenario, snapshot
+from libins import cdb, faults, run, scenario, snapshot
 from libins.board_uart import ExpectError, Inbox, Octet, Pattern, failure, seconds, shown
 from libins.board_views import Memory, Pins, Registers, Variables, Volts
 from libins.errors import UsageError
@@ -33,7 +33,6 @@ from libins.snapshot import Snapshot
 __all__ = ["Board", "ExpectError", "Snapshot"]
 
 CHANNELS = 11
-RAM_OCTETS = {"at89s51": 128, "at89s52": 256}
 ADDRESSES = 0x10000
 
 
@@ -95,12 +94,13 @@ class Board:
         tables = self.scenario.tables
         self._run = run.build(self.scenario, tables.seed, not self._navigator, self._trace, listen=True)
         self._inbox = Inbox()
-        self.iram = Memory("iram", RAM_OCTETS[tables.part], self._run.read, self._do)
+        self.iram = Memory("iram", scenario.RAM_OCTETS[tables.part], self._run.read, self._do)
         self.xdata = Memory("xdata", tables.xdata_octets, self._run.read, self._do)
         self.code = Memory("code", ADDRESSES, self._run.read, self._do)
         self.sfr = Registers(self._run.read, self._do)
         self.volts = Volts(CHANNELS, self._do)
         self.pins = Pins(self._run.pin, self._do)
+        self.faults = faults.Faults(self._do, self._run.fault_hits)
         self._past = []
         self._keep()
 
@@ -380,7 +380,14 @@ class Board:
             document = Document(Path("Board.motion"), {**self.scenario.table, "motion": arguments[0]})
             self.scenario = replace(scenario.read(document, self.scenario.firmware), path=self.scenario.path)
             arguments = (run.motion_of(self.scenario),)
-        result = getattr(self._run, what)(*arguments)
+        elif what == "add_fault":
+            tables = self.scenario.tables
+            fault = faults.parsed(arguments[0], self.now_s, scenario.RAM_OCTETS[tables.part])
+            arguments = (faults.built(fault, tables.seed, len(self._run.fault_hits()), self.now_s),)
+        try:
+            result = getattr(self._run, what)(*arguments)
+        except ValueError as error:
+            raise UsageError(f"Board: {error}") from error
         if what == "set_volts":
             self.volts.held[arguments[0]] = arguments[1]
         elif what == "clear_volts":

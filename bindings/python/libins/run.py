@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from libins import _run
+from libins import _run, faults
 from libins.endpoint import Endpoint
 from libins.errors import UsageError
 from libins.program import Program
@@ -134,9 +134,15 @@ def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: boo
         config.nav = _run.nav(n.period_s, n.block_len, n.sequence, n.form, n.rate_order, n.skew_s, gyro)
         config.start_at_truth = n.start == "truth"
     try:
-        return _run.Run(config, motion_of(scenario), gyro)
+        run = _run.Run(config, motion_of(scenario), gyro)
     except ValueError as error:
         raise UsageError(f"{scenario.path}: {error}") from error
+    for place, fault in enumerate(tables.fault):
+        try:
+            run.add_fault(faults.built(fault, seed, place))
+        except ValueError as error:
+            raise UsageError(f"{scenario.path}: fault.{place}.{error}") from error
+    return run
 
 
 def execute(scenario: Scenario, options: Options) -> Result:
@@ -202,6 +208,7 @@ def execute(scenario: Scenario, options: Options) -> Result:
         "dds": {"published": published, "received": None} if options.publish is not None else None,
         "trace_sha256": digest.hexdigest(),
         "reports": run.reports(),
+        **({"faults": faults.counted(run.fault_hits())} if tables.fault else {}),
         **(options.watch.end(run) if options.watch is not None else {}),
     }
     checks = [_judged(expect, summary) for expect in tables.expect]

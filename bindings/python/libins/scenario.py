@@ -17,13 +17,14 @@ from typing import Any
 
 import numpy as np
 
-from libins import hexfile
+from libins import faults, hexfile
 from libins.errors import UsageError
 from libins.schema import Document, field
 
 PACKAGE = Path(__file__).absolute().parent
 """In the build tree the modules are links: what was built lies beside the links."""
 FLASH_OCTETS = {"at89s51": 4096, "at89s52": 8192}
+RAM_OCTETS = {"at89s51": 128, "at89s52": 256}
 BARE: dict[str, Any] = {"schema": 1, "board": "8051_tlc2543", "stop_s": 60.0, "motion": {"kind": "still"}}
 """The board alone, without a scenario file: gyros at rest, and nobody at the other end of the line."""
 IMAGES = (".ihx", ".hex", ".ihex")
@@ -121,6 +122,7 @@ class Tables:
     gyro: Gyro = field(Gyro)
     link: Link = field(Link)
     nav: Nav | None = field(None)
+    fault: list[faults.Fault] = field([])
     expect: list[Expect] = field([])
 
 
@@ -260,6 +262,7 @@ def _check(document: Document, tables: Tables) -> None:
             raise document.refuse(("nav", "skew_s"), "three delays (X, Y, Z) below period_s are needed")
     elif tables.stop_samples is not None:
         raise document.refuse(("stop_samples",), "counts the navigator's samples, but there is no [nav] table")
+    faults.check(document, tables.fault, RAM_OCTETS[tables.part])
     end = 0.0
     for i, cut in enumerate(tables.link.cuts_s):
         if len(cut) != 2 or not end <= cut[0] < cut[1]:

@@ -7,6 +7,7 @@ import re
 import tomllib
 import types
 import typing
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
@@ -85,17 +86,20 @@ class Document:
         """Line of a key, or of the table that should hold it; 1 when nothing is found."""
         section: tuple[str, ...] = ()
         best = 1
-        names = tuple(name for name in key if not name.isdigit())
+        tables: Counter[tuple[str, ...]] = Counter()
         for number, line in enumerate(self.text.splitlines(), start=1):
             if header := re.match(r"\s*\[+\s*([^\]]+?)\s*\]+", line):
                 section = tuple(part.strip() for part in header[1].split("."))
-                if section == names[: len(section)]:
+                if line.strip().startswith("[["):
+                    tables[section] += 1
+                    section = (*section, str(tables[section] - 1))
+                if section == key[: len(section)]:
                     best = number
-            elif (entry := re.match(r'\s*"?([\w.-]+)"?\s*=', line)) and names:
+            elif (entry := re.match(r'\s*"?([\w.-]+)"?\s*=', line)) and key:
                 full = section + tuple(entry[1].split("."))
-                if full == names[: len(full)]:
+                if full == key[: len(full)]:
                     best = number
-                    if full == names:
+                    if full == key:
                         return number
         return best
 

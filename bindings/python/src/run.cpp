@@ -64,6 +64,8 @@ Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const in
     board.adc.analog = {on_volts, this};
     board.adc.sampled = on_sample;
     board.adc.sampled_ctx = this;
+    board.adc.fault = on_outcome;
+    board.adc.fault_ctx = this;
     board.adc.report = {on_report, this};
     board.report = {on_report, this};
     board_.reset(acq_board_create(&board, &sched_));
@@ -82,6 +84,11 @@ Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const in
         }
     }
     wire_up();
+    const uint32_t flash = config_.part == MCS51_AT89S51 ? 4096 : 8192;
+    const uint32_t ram = config_.part == MCS51_AT89S51 ? 128 : 256;
+    const uint32_t code = config_.code_octets != 0 ? config_.code_octets : flash;
+    faults_.emplace(
+        Faults::Target{board_.get(), &sched_, &end_, &host_rxd_, config_.baud, ram, config_.xdata_octets, code});
 }
 
 void Run::wire_up()
@@ -127,7 +134,12 @@ bool Run::until(emu_time_t t)
     constexpr emu_time_t tick = 1'000'000'000; // the host looks at its time-outs each millisecond
     while (sched_.now < t)
     {
-        const emu_time_t next = config_.nav ? std::min(t, (sched_.now / tick + 1) * tick) : t;
+        if (faults_->next() <= sched_.now)
+        {
+            faults_->apply();
+        }
+        const emu_time_t look = config_.nav ? std::min(t, (sched_.now / tick + 1) * tick) : t;
+        const emu_time_t next = std::min(look, faults_->next());
         const mcs51_stop_t stop = acq_board_run(board_.get(), next);
         halted_ = stop == MCS51_HALTED;
         if (config_.nav)
@@ -170,7 +182,13 @@ double Run::on_volts(void* ctx, unsigned channel, int64_t t)
 {
     Run& self = *static_cast<Run*>(ctx);
     const auto held = self.volts_.find(channel);
-    return held != self.volts_.end() ? held->second : ins_gyro_volts(&self.gyro_, channel, t);
+    const double volts = held != self.volts_.end() ? held->second : ins_gyro_volts(&self.gyro_, channel, t);
+    return self.faults_->volts(channel, volts, t);
+}
+
+void Run::on_outcome(void* ctx, unsigned channel, emu_time_t at, tlc2543_outcome_t* outcome)
+{
+    static_cast<Run*>(ctx)->faults_->outcome(channel, at, outcome);
 }
 
 void Run::on_sample(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at)

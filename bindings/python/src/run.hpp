@@ -7,6 +7,7 @@
 #pragma once
 #include "emu/serial.h"
 #include "emu_8051/acq_board.h"
+#include "faults.hpp"
 #include "ins_nav/nav.h"
 #include "ins_truth/gyro.h"
 #include "ins_truth/motion.h"
@@ -136,6 +137,7 @@ class Run
     /// From now on that many volts on an analogue input, whatever the motion says, until they are cleared.
     void set_volts(unsigned channel, double volts) { volts_[channel] = volts; }
     void clear_volts(unsigned channel) { volts_.erase(channel); }
+    Faults& faults() { return *faults_; }
     /// From this instant on.
     void set_motion(std::shared_ptr<ins_motion_t> motion);
     /// Octets from the outside; \return how many the transmitter took.
@@ -179,6 +181,7 @@ class Run
     };
     static double on_volts(void* ctx, unsigned channel, int64_t t);
     static void on_sample(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at);
+    static void on_outcome(void* ctx, unsigned channel, emu_time_t at, tlc2543_outcome_t* outcome);
     static void on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at);
     static void on_edge(void* ctx, bool level, emu_time_t at);
     static void on_pin_edge(void* ctx, bool level, emu_time_t at);
@@ -206,6 +209,7 @@ class Run
     std::array<emu_serial_line_t, 2> lines_{};
     std::vector<emu_serial_cut_t> cuts_;
     emu_serial_end_t end_{};
+    std::optional<Faults> faults_;
     ins_nav_link_t link_{};
     ins_nav_solver_t solver_{};
     bool started_ = false;

@@ -328,6 +328,7 @@ NB_MODULE(_run, m)
 
     nb::class_<Run> run(m, "Run", "See run.hpp.");
     libins::bind_board(run);
+    libins::bind_faults(m, run);
     run.def(
            "__init__",
            [](Run* self, const RunConfig& config, const Motion& motion, const ins_gyro_config_t& gyro)

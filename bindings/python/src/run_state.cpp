@@ -145,6 +145,7 @@ void Run::walk(emu_state_t* io)
         emu_serial_line_state(&line, io);
     }
     emu_serial_end_state(&end_, io);
+    faults_->state(io);
     plain(io, link_);
     plain(io, solver_);
     emu_state_bool(io, &started_);

@@ -40,6 +40,8 @@ struct tlc2543_t
     int eoc_driver, out_driver;
     emu_event_t eoc_event, enable_event;
     bool selected, enabled, converting, eoc_low, down;
+    bool eoc_missing; ///< in this conversion, which takes t_conv
+    emu_time_t t_conv;
     uint8_t out;           ///< emu_drive_t on DATA OUT
     uint8_t lost;          ///< conversions to come that give no result
     uint8_t bits;          ///< of this transfer, known once the input byte is in
@@ -120,7 +122,7 @@ static void drive_out(tlc2543_t* self, emu_time_t at)
 static void drive_eoc(tlc2543_t* self, bool low, emu_time_t at)
 {
     self->eoc_low = low;
-    emu_wire_drive(self->eoc, self->eoc_driver, low ? EMU_STRONG0 : EMU_STRONG1, at);
+    emu_wire_drive(self->eoc, self->eoc_driver, low && !self->eoc_missing ? EMU_STRONG0 : EMU_STRONG1, at);
 }
 
 static double input_volts(const tlc2543_t* self, unsigned address, emu_time_t at)
@@ -170,7 +172,7 @@ static void sample(tlc2543_t* self, emu_time_t at)
         drive_out(self, at);
         return;
     }
-    uint16_t code = 0;
+    tlc2543_outcome_t outcome = {.t_conv = self->config.t_conv};
     self->lost = self->down ? self->config.wake_lost : self->lost;
     self->down = false;
     if (address <= ADDRESS_HIGH)
@@ -181,18 +183,25 @@ static void sample(tlc2543_t* self, emu_time_t at)
             report(self, EMU_NOT_MODELLED, "TLC2543: the volts of this channel are not a number; converted as 0",
                    address, at);
         }
-        code = convert(self, volts);
+        const unsigned channel = self->config.first_channel + address;
+        outcome.code = convert(self, volts);
+        if (self->config.fault != NULL)
+        {
+            self->config.fault(self->config.fault_ctx, channel, at, &outcome);
+        }
         if (self->config.sampled != NULL)
         {
-            self->config.sampled(self->config.sampled_ctx, self->config.first_channel + address, code, volts, at);
+            self->config.sampled(self->config.sampled_ctx, channel, outcome.code, volts, at);
         }
     }
     else
     {
         report(self, EMU_GUEST_ERROR, "TLC2543: address 1111 selects nothing; use 0000 to 1110", self->input, at);
     }
-    self->pending = format(self, self->lost > 0 ? self->config.power_up_code : code, self->input);
+    self->pending = format(self, self->lost > 0 ? self->config.power_up_code : outcome.code, self->input);
     self->lost = (uint8_t)(self->lost - (self->lost > 0));
+    self->t_conv = outcome.t_conv;
+    self->eoc_missing = outcome.eoc_missing;
     self->converting = true;
     self->last_fall = at;
     drive_out(self, at);
@@ -205,7 +214,7 @@ static void eoc_edge(void* ctx, emu_time_t at)
     if (!self->eoc_low)
     {
         drive_eoc(self, true, at);
-        emu_sched_at(self->sched, &self->eoc_event, at + self->config.t_conv);
+        emu_sched_at(self->sched, &self->eoc_event, at + self->t_conv);
         return;
     }
     self->converting = false;
@@ -384,7 +393,7 @@ void tlc2543_destroy(tlc2543_t* self)
 void tlc2543_state(tlc2543_t* self, emu_state_t* io)
 {
     uint32_t rises = self->rises, falls = self->falls;
-    emu_state_tag(io, "2543", 1);
+    emu_state_tag(io, "2543", 2);
     emu_event_state(self->sched, &self->eoc_event, io);
     emu_event_state(self->sched, &self->enable_event, io);
     emu_state_bool(io, &self->selected);
@@ -395,6 +404,8 @@ void tlc2543_state(tlc2543_t* self, emu_state_t* io)
     emu_state_u8(io, &self->out);
     emu_state_u8(io, &self->lost);
     emu_state_u8(io, &self->bits);
+    emu_state_bool(io, &self->eoc_missing);
+    emu_state_i64(io, &self->t_conv);
     emu_state_u32(io, &rises);
     emu_state_u32(io, &falls);
     emu_state_u8(io, &self->input);
@@ -403,8 +414,8 @@ void tlc2543_state(tlc2543_t* self, emu_state_t* io)
     emu_state_i64(io, &self->cs_fall);
     emu_state_i64(io, &self->last_rise);
     emu_state_i64(io, &self->last_fall);
-    emu_state_check(io, self->out <= EMU_STRONG1 && emu_state_time(self->cs_fall) && emu_state_time(self->last_rise) &&
-                            emu_state_time(self->last_fall));
+    emu_state_check(io, self->out <= EMU_STRONG1 && emu_state_time(self->t_conv) && emu_state_time(self->cs_fall) &&
+                            emu_state_time(self->last_rise) && emu_state_time(self->last_fall));
     if (!io->bad)
     {
         self->rises = rises;

@@ -38,6 +38,46 @@ static unsigned present(uint32_t drives)
     return (drives | drives >> 4) & 15u;
 }
 
+/// Of a set that is not empty.
+static bool resolved(unsigned set)
+{
+    return (set & (set >= STRONG0 ? STRONG0 : WEAK0)) == 0;
+}
+
+static void set_level(emu_wire_t* self, bool level, emu_time_t at)
+{
+    self->level = level;
+    self->changed = at;
+    for (unsigned i = 0; i < self->watchers; i++)
+    {
+        self->watch[i].fn(self->watch[i].ctx, level, at);
+    }
+}
+
+/// Both supplies at once: ground.
+static void settle(emu_wire_t* self, emu_time_t at)
+{
+    const emu_wire_t* const other = self->bridge != NULL ? self->bridge : self;
+    const unsigned set = present(self->drives) | present(other->drives);
+    const bool gnd = self->rail == EMU_RAIL_GND || other->rail == EMU_RAIL_GND;
+    const bool vcc = self->rail == EMU_RAIL_VCC || other->rail == EMU_RAIL_VCC;
+    self->floating = !gnd && !vcc && set == 0;
+    const bool level = gnd || vcc ? !gnd : set == 0 ? self->level : resolved(set);
+    if (level != self->level)
+    {
+        set_level(self, level, at);
+    }
+}
+
+static void settle_shorted(emu_wire_t* self, emu_time_t at)
+{
+    settle(self, at);
+    if (self->bridge != NULL)
+    {
+        settle(self->bridge, at);
+    }
+}
+
 void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t at)
 {
     const unsigned shift = 4u * (unsigned)driver;
@@ -58,14 +98,46 @@ void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t 
     {
         level = (set & WEAK0) == 0;
     }
-    if (level != self->level)
+    if (self->shorted)
     {
-        self->level = level;
-        self->changed = at;
-        for (unsigned i = 0; i < self->watchers; i++)
-        {
-            self->watch[i].fn(self->watch[i].ctx, level, at);
-        }
+        settle_shorted(self, at);
+    }
+    else if (level != self->level)
+    {
+        set_level(self, level, at);
+    }
+}
+
+void emu_wire_short(emu_wire_t* self, emu_rail_t rail, emu_time_t at)
+{
+    self->rail = (uint8_t)rail;
+    self->shorted = rail != EMU_RAIL_NONE || self->bridge != NULL;
+    settle_shorted(self, at);
+}
+
+int emu_wire_bridge(emu_wire_t* self, emu_wire_t* other, emu_time_t at)
+{
+    if (self == other || self->bridge != NULL || other->bridge != NULL)
+    {
+        return -1;
+    }
+    self->bridge = other;
+    other->bridge = self;
+    self->shorted = other->shorted = true;
+    settle_shorted(self, at);
+    return 0;
+}
+
+void emu_wire_unbridge(emu_wire_t* self, emu_time_t at)
+{
+    emu_wire_t* const other = self->bridge;
+    if (other != NULL)
+    {
+        self->bridge = other->bridge = NULL;
+        self->shorted = self->rail != EMU_RAIL_NONE;
+        other->shorted = other->rail != EMU_RAIL_NONE;
+        settle(self, at);
+        settle(other, at);
     }
 }
 

@@ -65,6 +65,9 @@ EMU_API emu_wire_t* acq_board_wire(acq_board_t* self, const char* name);
 EMU_API bool acq_board_pin(const acq_board_t* self, unsigned port, unsigned bit);
 /// What a probe on that pin drives from now on, between runs; EMU_Z takes it away.
 EMU_API void acq_board_drive_pin(acq_board_t* self, unsigned port, unsigned bit, emu_drive_t drive);
+/// Cut a net at the CPU's pin, named as in acq_board_wire, or mend it; between runs. The CPU then reads what it drives itself (port 0,
+/// which has no pull-ups: the last level), and the others see nobody there. \return 0, or -1 where there is no such net.
+EMU_API int acq_board_cut(acq_board_t* self, const char* name, bool cut);
 /// From now on the crystal is off by so many 1e-9 of crystal_hz; |ppb| <= EMU_PPB_MAX.
 EMU_API void acq_board_set_crystal(acq_board_t* self, int32_t ppb);
 

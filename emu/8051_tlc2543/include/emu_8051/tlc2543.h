@@ -18,6 +18,16 @@ extern "C" {
 /// the format of the transfer. channel, from config.first_channel: 0..10 are inputs, 11..13 self-test. An abort may still discard it.
 typedef void (*tlc2543_sample_fn)(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at);
 
+/// What comes of a sample. A fault may change it.
+typedef struct tlc2543_outcome_t
+{
+    uint16_t code;     ///< straight binary, 12 bits
+    emu_time_t t_conv; ///< conversion [ps], 0 at least
+    bool eoc_missing;  ///< EOC stays high meanwhile
+} tlc2543_outcome_t;
+
+typedef void (*tlc2543_fault_fn)(void* ctx, unsigned channel, emu_time_t at, tlc2543_outcome_t* outcome);
+
 typedef struct tlc2543_config_t
 {
     double ref_minus_v, ref_plus_v;
@@ -34,6 +44,8 @@ typedef struct tlc2543_config_t
     unsigned first_channel;      ///< AIN0 is this channel to `analog` and `sampled`, the self-tests 11 to 13 after it
     tlc2543_sample_fn sampled;   ///< may be NULL
     void* sampled_ctx;
+    tlc2543_fault_fn fault; ///< before `sampled`; NULL: none
+    void* fault_ctx;
     emu_report_t report;
     /// What no data sheet at hand says; all zero but power_up_code is the choice that parts/tlc2543.c describes.
     uint16_t power_up_code;     ///< what is read before the first result; random in silicon, A5Ah by default
