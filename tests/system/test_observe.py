@@ -244,7 +244,7 @@ def test_profile_as_text(ins, folder, tmp_path):
     [
         (
             ["--profile", "-"],
-            "no observed.cdb beside it; build the image with sdcc --debug, or give its .cdb with --cdb",
+            "neither observed.cdb nor observed.rst beside it; build .* --debug, or give its .cdb or .rst with --cdb",
         ),
         (
             ["--lcov", "o.info", "--cdb", "{folder}/observed.cdb"],

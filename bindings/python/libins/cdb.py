@@ -99,6 +99,8 @@ class Cdb:
     c_lines: list[Line] = field(default_factory=list)
     asm_lines: list[Line] = field(default_factory=list)
     """One for each instruction."""
+    paths: dict[str, Path] = field(default_factory=dict)
+    """Of the C files, by name, where they are known."""
 
     @cached_property
     def _starts(self) -> tuple[list[int], list[int], list[int]]:

@@ -7,6 +7,7 @@ and taken, in the line they were compiled from. Counts are 1 or 0: what is noted
 from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -63,12 +64,13 @@ def totals(files: dict[str, File]) -> dict[str, int]:
     }
 
 
-def sources(names: list[str], folders: list[Path]) -> dict[str, Path]:
-    """Where each C file is: the first of that name in the folders or below. Raises UsageError."""
+def sources(table: Cdb, folders: list[Path]) -> dict[str, Path]:
+    """Where each C file is: as the table says, or the first of that name in the folders or below. Raises UsageError."""
     found: dict[str, Path] = {}
-    for name in names:
-        matches = (path for folder in folders for path in sorted(folder.rglob(name)) if path.is_file())
-        path = next(matches, None)
+    for name in table.files():
+        known = [path for path in [table.paths.get(name)] if path is not None and path.is_absolute()]
+        below = (path for folder in folders for path in sorted(folder.rglob(name)) if path.is_file())
+        path = next(chain(known, below), None)
         if path is None:
             raise UsageError(f"{name}: not found in {', '.join(map(str, folders))}; give its folder with --source")
         found[name] = path.resolve()

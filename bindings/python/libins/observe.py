@@ -8,7 +8,7 @@ from typing import Any, TextIO
 
 import numpy as np
 
-from libins import _run, coverage, itrace, profile, vcd, views
+from libins import _run, coverage, itrace, listing, profile, vcd, views
 from libins.cdb import ADDRESS_END, Cdb
 from libins.cdb import load as load_cdb
 from libins.disasm import SFR
@@ -76,7 +76,7 @@ class Observation:
         self._paths: dict[str, Path] = {}
         if wanted.lcov and self._table:
             beside = [scenario.firmware.resolve().parent, self._table.path.resolve().parent]
-            self._paths = coverage.sources(self._table.files(), wanted.source or beside)
+            self._paths = coverage.sources(self._table, wanted.source or beside)
         self._files: list[_File] = []
         self._dump: vcd.Dump | None = None
         self._trace: itrace.Writer | None = None
@@ -87,11 +87,13 @@ class Observation:
         beside = self._scenario.firmware.with_suffix(".cdb")
         path = self._wanted.cdb or (beside if beside.exists() else None)
         if path is not None:
-            return load_cdb(path)
+            return listing.load([path]) if path.suffix == ".rst" else load_cdb(path)
+        if listings := listing.beside(self._scenario.firmware):
+            return listing.load(listings)
         if self._wanted.lcov or self._wanted.profile:
             raise UsageError(
-                f"{self._scenario.firmware}: no {beside.name} beside it; build the image with sdcc --debug, "
-                "or give its .cdb with --cdb"
+                f"{self._scenario.firmware}: neither {beside.name} nor {beside.stem}.rst beside it; "
+                "build the image with sdcc --debug, or give its .cdb or .rst with --cdb"
             )
         return None
 

@@ -16,7 +16,7 @@ ANALOG_US = 1000.0
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """To `ins run`."""
-    group = command.add_argument_group("looking at the firmware", "docs/seeing.md; * needs SDCC's .cdb")
+    group = command.add_argument_group("looking at the firmware", "docs/seeing.md; * needs SDCC's .cdb or .rst")
     group.add_argument("--vcd", type=Path, metavar="F", help="write pins, nets, volts, octets and interrupts (GTKWave)")
     group.add_argument("--vcd-sfr", action="append", default=[], metavar="NAME", help="with --vcd: an SFR, e.g. TCON")
     group.add_argument(
@@ -29,7 +29,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     group.add_argument("--itrace", type=Path, metavar="F", help="write every instruction and the registers it changed")
     group.add_argument("--profile", type=Path, metavar="F", help="*write where the cycles went ('-': standard output)")
     group.add_argument("--lcov", type=Path, metavar="F.info", help="*write line and branch coverage for genhtml")
-    group.add_argument("--cdb", type=Path, metavar="F.cdb", help="the .cdb, if it is not beside the image")
+    group.add_argument("--cdb", type=Path, metavar="F.cdb", help="the .cdb or .rst, if it is not beside the image")
     group.add_argument(
         "--report-at", type=float, metavar="S", help="with --report: instant of its pictures (the middle of the run)"
     )

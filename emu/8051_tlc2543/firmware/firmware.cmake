@@ -1,5 +1,6 @@
-# add_acq_firmware(NAME PERIOD_US BAUD BLOCK_LEN SEQ): one image of acq.c, as ${CMAKE_BINARY_DIR}/firmware/NAME.ihx with its .map and .mem,
-# and NAME_debug.ihx with its .cdb: SDCC 4.2 makes other code with --debug (a return jumps to the one RET, a last call is no jump).
+# add_acq_firmware(NAME PERIOD_US BAUD BLOCK_LEN SEQ): one image of acq.c, as ${CMAKE_BINARY_DIR}/firmware/NAME.ihx with its .map, .mem and
+# listings (NAME.MODULE.rst), and NAME_debug.ihx with its .cdb: SDCC 4.2 makes other code with --debug (a return jumps to the one RET,
+# a last call is no jump).
 # Its options are described in acq_config.h, which refuses what cannot work. Timer 0 ticks about once a millisecond: of the whole
 # numbers of ticks that divide the period, the one nearest 1024 machine cycles a tick is taken.
 find_program(INS_SDCC sdcc)
@@ -55,13 +56,16 @@ function(add_acq_firmware name period_us baud block_len seq)
       list(APPEND products ${work}/${image}.cdb)
     endif()
     list(TRANSFORM products REPLACE "^${work}" "${out}" OUTPUT_VARIABLE copies)
+    set(listings ${out}/${image}.acq.rst ${out}/${image}.handshake_board.rst)
     add_custom_command(
-      OUTPUT ${copies}
+      OUTPUT ${copies} ${listings}
       COMMAND ${INS_SDCC} ${flags} ${debug} -c ${here}/acq.c -o ${work}/acq.rel
       COMMAND ${INS_SDCC} ${flags} ${debug} -c ${core}/src/handshake_board.c -o ${work}/handshake_board.rel
       COMMAND ${INS_SDCC} -mmcs51 --model-small ${debug} --iram-size 128 --code-size 4096 --stack-size 20 ${work}/acq.rel
               ${work}/handshake_board.rel -o ${work}/${image}.ihx
       COMMAND ${CMAKE_COMMAND} -E copy ${products} ${out}
+      COMMAND ${CMAKE_COMMAND} -E copy ${work}/acq.rst ${out}/${image}.acq.rst
+      COMMAND ${CMAKE_COMMAND} -E copy ${work}/handshake_board.rst ${out}/${image}.handshake_board.rst
       DEPENDS ${here}/acq.c ${here}/acq_config.h ${core}/src/handshake_board.c
               ${core}/include/ins/handshake.h ${core}/include/ins/config.h
       COMMENT "SDCC ${image}.ihx: ${best_ticks} ticks of ${best_tick} cycles, ${baud} Bd, reply within ${reply_ticks} ticks"
