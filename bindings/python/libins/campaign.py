@@ -126,7 +126,7 @@ class Campaign:
         alone = [{vary.key: value} for vary in self.varies for value in vary.extremes()]
         for variation in ({}, *alone):
             loaded = self._load(0, variation)
-            digest.update(repr((loaded.image, None if loaded.csv is None else loaded.csv.tolist())).encode())
+            digest.update(repr((loaded.image, [table.tolist() for table in loaded.tables_read()])).encode())
         self.identity: dict[str, Any] = {
             "build": campaign_worker.build(),
             "scenario": hashlib.sha256(self.path.read_bytes()).hexdigest(),

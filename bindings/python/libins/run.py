@@ -127,6 +127,11 @@ def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: boo
     config.trace = trace
     config.listen = listen
     config.seen = seen
+    config.six = tables.board == "8051_tlc2543_six"
+    for place, signal in enumerate(tables.analog):
+        t_s, volts = scenario.volts[place].T.tolist() if signal.csv else ([], [])
+        wave = (signal.volts, signal.amplitude_v, signal.frequency_hz, signal.phase_rad)
+        config.add_signal(signal.channel, wave, t_s, volts)
     for address, octets in scenario.image:
         config.add_segment(address, octets)
     if tables.nav is not None and not outside:

@@ -28,7 +28,9 @@ RAM_OCTETS = {"at89s51": 128, "at89s52": 256}
 BARE: dict[str, Any] = {"schema": 1, "board": "8051_tlc2543", "stop_s": 60.0, "motion": {"kind": "still"}}
 """The board alone, without a scenario file: gyros at rest, and nobody at the other end of the line."""
 IMAGES = (".ihx", ".hex", ".ihex")
-BOARDS = ("8051_tlc2543",)
+BOARDS = ("8051_tlc2543", "8051_tlc2543_six")
+MOTION_COLUMNS = ("t_s", "yaw_rad", "pitch_rad", "roll_rad")
+VOLTS_COLUMNS = ("t_s", "volts")
 VARYING = ("matrix", "campaign")
 """Tables that say which keys are varied."""
 MATRIX_LIMIT = 10_000
@@ -70,6 +72,18 @@ class Gyro:
     noise_rad_s_rthz: float | None = field(None, minimum=0.0)
     bias_rad_s: list[float] | None = field(None)
     drift_rad_s2: list[float] | None = field(None)
+
+
+@dataclass(frozen=True)
+class Analog:
+    """What is on an input instead of a gyro: volts + amplitude_v sin(2 pi frequency_hz t + phase_rad) + the file."""
+
+    channel: int = field(minimum=0, maximum=255)
+    volts: float = field(0.0)
+    amplitude_v: float = field(0.0)
+    frequency_hz: float = field(0.0, minimum=0.0, maximum=1e5)
+    phase_rad: float = field(0.0)
+    csv: str = field("")
 
 
 @dataclass(frozen=True)
@@ -120,6 +134,7 @@ class Tables:
     seed: int = field(1, minimum=0, maximum=2**63 - 1)
     stop_samples: int | None = field(None, minimum=1)
     gyro: Gyro = field(Gyro)
+    analog: list[Analog] = field([])
     link: Link = field(Link)
     nav: Nav | None = field(None)
     fault: list[faults.Fault] = field([])
@@ -139,6 +154,12 @@ class Scenario:
     """What the matrix sets, by dotted name."""
     table: Mapping[str, Any]
     """As written, with what replaced a key."""
+    volts: Mapping[int, np.ndarray[Any, Any]]
+    """Files of [[analog]] tables, by their place."""
+
+    def tables_read(self) -> list[np.ndarray[Any, Any]]:
+        """Every CSV file that the scenario names."""
+        return [*([] if self.csv is None else [self.csv]), *self.volts.values()]
 
     @property
     def name(self) -> str:
@@ -191,9 +212,14 @@ def read(
     image_path = firmware or _resolve(document, ("firmware",), tables.firmware, PACKAGE / "firmware")
     table = None
     if tables.motion.kind == "csv":
-        table = read_csv(_resolve(document, ("motion", "csv"), tables.motion.csv, None))
+        table = read_csv(_resolve(document, ("motion", "csv"), tables.motion.csv, None), MOTION_COLUMNS, 4)
+    volts = {
+        i: read_csv(_resolve(document, ("analog", str(i), "csv"), signal.csv, None), VOLTS_COLUMNS, 2)
+        for i, signal in enumerate(tables.analog)
+        if signal.csv
+    }
     image = hexfile.load(image_path, tables.code_octets or FLASH_OCTETS[tables.part])
-    return Scenario(document.path, tables, image, image_path, table, combination or {}, document.table)
+    return Scenario(document.path, tables, image, image_path, table, combination or {}, document.table, volts)
 
 
 def load_all(path: Path, firmware: Sequence[Path] = (), settings: Mapping[str, Any] | None = None) -> list[Scenario]:
@@ -263,6 +289,10 @@ def _check(document: Document, tables: Tables) -> None:
     elif tables.stop_samples is not None:
         raise document.refuse(("stop_samples",), "counts the navigator's samples, but there is no [nav] table")
     faults.check(document, tables.fault, RAM_OCTETS[tables.part])
+    channels = [signal.channel for signal in tables.analog]
+    for i, channel in enumerate(channels):
+        if channel in channels[:i]:
+            raise document.refuse(("analog", str(i), "channel"), f"found {channel} again; one table a channel")
     end = 0.0
     for i, cut in enumerate(tables.link.cuts_s):
         if len(cut) != 2 or not end <= cut[0] < cut[1]:
@@ -274,15 +304,14 @@ def _check(document: Document, tables: Tables) -> None:
             raise document.refuse(("expect", str(i)), "needs at_most or at_least")
 
 
-def read_csv(path: Path) -> np.ndarray[Any, Any]:
-    """A motion file: t_s, yaw_rad, pitch_rad, roll_rad. Shape (n, 4). Raises UsageError with the line."""
-    columns = ["t_s", "yaw_rad", "pitch_rad", "roll_rad"]
+def read_csv(path: Path, columns: Sequence[str], least: int) -> np.ndarray[Any, Any]:
+    """A table of numbers by time, with that header and at least so many rows. Raises UsageError with the line."""
     try:
         with path.open(newline="", encoding="utf-8") as file:
             rows = list(csv.reader(file))
     except (OSError, UnicodeDecodeError) as error:
         raise UsageError(f"{path}: cannot be read: {error}") from error
-    if not rows or [name.strip() for name in rows[0]] != columns:
+    if not rows or [name.strip() for name in rows[0]] != list(columns):
         found = ",".join(rows[0]) if rows else "nothing"
         raise UsageError(f"{path}:1: found {found!r}, but the header must be {','.join(columns)}")
     values: list[list[float]] = []
@@ -296,6 +325,6 @@ def read_csv(path: Path) -> np.ndarray[Any, Any]:
         if values and numbers[0] <= values[-1][0]:
             raise UsageError(f"{path}:{number}: t_s = {numbers[0]} does not come after {values[-1][0]}")
         values.append(numbers)
-    if len(values) < 4:
-        raise UsageError(f"{path}: {len(values)} rows, but at least 4 are needed for a spline")
+    if len(values) < least:
+        raise UsageError(f"{path}: {len(values)} rows, but at least {least} are needed")
     return np.array(values)

@@ -42,6 +42,7 @@ class Snapshot:
             "firmware": str(s.firmware),
             "image": [[address, octets.hex()] for address, octets in s.image],
             "csv": None if s.csv is None else s.csv.tolist(),
+            "analog": [[place, volts.tolist()] for place, volts in s.volts.items()],
             "navigator": self.navigator,
             "now_ps": self.now_ps,
             "received": self.received,
@@ -79,6 +80,7 @@ def read(path: Path) -> Snapshot:
         None if d["csv"] is None else np.array(d["csv"]),
         {},
         d["table"],
+        {place: np.array(volts) for place, volts in d["analog"]},
     )
     received = tuple(Octet(*octet) for octet in d["received"])
     return Snapshot(scenario, d["navigator"], d["now_ps"], state, received, d["read"], dict(d["volts"]))

@@ -182,7 +182,10 @@ double Run::on_volts(void* ctx, unsigned channel, int64_t t)
 {
     Run& self = *static_cast<Run*>(ctx);
     const auto held = self.volts_.find(channel);
-    const double volts = held != self.volts_.end() ? held->second : ins_gyro_volts(&self.gyro_, channel, t);
+    const auto signal = self.config_.signals.find(channel);
+    const double volts = held != self.volts_.end()              ? held->second
+                         : signal != self.config_.signals.end() ? signal->second.at(static_cast<double>(t) * 1e-12)
+                                                                : ins_gyro_volts(&self.gyro_, channel, t);
     return self.faults_->volts(channel, volts, t);
 }
 

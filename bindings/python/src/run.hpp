@@ -13,6 +13,7 @@
 #include "ins_truth/motion.h"
 #include "observers.hpp"
 #include "program.hpp"
+#include "signal.hpp"
 #include <array>
 #include <map>
 #include <memory>
@@ -90,8 +91,9 @@ struct RunConfig
     std::optional<ins_nav_config_t> nav; ///< nothing: the outside plays the host
     bool start_at_truth = true;          ///< the navigator gets the truth at its first sample
     bool trace = false;
-    bool six = false;    ///< the board of acq_board_six_config()
-    bool listen = false; ///< keep the octets that the host receives, also where the navigator takes them
+    std::map<unsigned, Signal> signals; ///< by channel; the others have the gyros
+    bool six = false;                   ///< the board of acq_board_six_config()
+    bool listen = false;                ///< keep the octets that the host receives, also where the navigator takes them
     bool seen =
         false; ///< keep the converter's samples and the edges of all pins, for take_samples() and take_pin_edges()
 };

@@ -320,6 +320,13 @@ NB_MODULE(_run, m)
         .def_rw("listen", &RunConfig::listen)
         .def_rw("seen", &RunConfig::seen)
         .def(
+            "add_signal",
+            [](RunConfig& self, unsigned channel, const std::array<double, 4>& wave, const std::vector<double>& t_s,
+               const std::vector<double>& volts) {
+                self.signals[channel] = {wave, t_s, volts};
+            },
+            "channel"_a, "wave"_a, "t_s"_a, "volts"_a)
+        .def(
             "add_segment",
             [](RunConfig& self, uint16_t address, const nb::bytes& octets) {
                 self.image.push_back({address, std::string(octets.c_str(), octets.size())});
