@@ -112,6 +112,17 @@ static void port_changed(void* ctx, unsigned port, uint8_t out, uint8_t changed,
     }
 }
 
+static uint8_t undriven(void* ctx, unsigned port)
+{
+    acq_board_t* const self = ctx;
+    unsigned pins = 0;
+    for (unsigned bit = 0; bit < 8; bit++)
+    {
+        pins |= (unsigned)self->nets[port][bit].wire.floating << bit;
+    }
+    return (uint8_t)pins;
+}
+
 /// The cycle up to which the CPU runs alone.
 static uint64_t next_cycle(const acq_board_t* self)
 {
@@ -226,6 +237,7 @@ acq_board_t* acq_board_create(const acq_board_config_t* config, emu_sched_t* sch
     const mcs51_config_t cpu = {.clock = clock,
                                 .port = port_changed,
                                 .sync = sync_to,
+                                .undriven = undriven,
                                 .ctx = self,
                                 .report = {config->report.put != NULL ? report : NULL, self},
                                 .part = config->part,

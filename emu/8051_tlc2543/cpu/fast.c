@@ -156,6 +156,7 @@
 
 // A direct operand is memory.
 #define READ(x, d)                (x = mem[d]);
+#define READ_BIT(x)               READ(x, BIT)
 #define LATCH(x, d)               READ(x, d)
 #define WRITE(d, v)               (mem[d] = U8(v));
 #define OP(opcode, ...)           GOES_ON(plain_, opcode, __VA_ARGS__)
@@ -198,6 +199,7 @@
 
 // It is what mcs51_read and mcs51_write make of it.
 #undef READ
+#undef READ_BIT
 #undef LATCH
 #undef WRITE
 #undef OPD
@@ -214,7 +216,10 @@
         x = function(self, d);                                                                                         \
         IN;                                                                                                            \
     }
-#define READ(x, d)  READ_BY(mcs51_read_limit, mcs51_read, x, d)
+#define ALL_BITS(self, d) mcs51_read(self, d, 0xFFu)
+#define THE_BIT(self, d)  mcs51_read(self, d, MASK)
+#define READ(x, d)  READ_BY(mcs51_read_limit, ALL_BITS, x, d)
+#define READ_BIT(x) READ_BY(mcs51_read_limit, THE_BIT, x, BIT)
 #define LATCH(x, d) READ_BY(mcs51_latch_limit, mcs51_read_latch, x, d)
 #define WRITE(d, v)                                                                                                    \
     {                                                                                                                  \
@@ -319,7 +324,7 @@ static uint32_t quiet(const mcs51_t* self, unsigned d)
 static unsigned polled(mcs51_t* self, const entry_t* ip)
 {
     const unsigned d = ip->o1;
-    return d < 0x80u ? self->mem[d] : ip->opcode == JBC ? mcs51_read_latch(self, d) : mcs51_read(self, d);
+    return d < 0x80u ? self->mem[d] : ip->opcode == JBC ? mcs51_read_latch(self, d) : mcs51_read(self, d, ip->o2);
 }
 
 void mcs51_poll(ARGUMENTS)

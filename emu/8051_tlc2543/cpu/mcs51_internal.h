@@ -134,6 +134,7 @@ struct mcs51_t
     uart_t uart;
     uint32_t once;
     uint8_t absent_sfr[16]; ///< bitmap: reported since reset
+    uint8_t floating[4];    ///< pins, likewise
     const mcs51_part_info_t* part;
     uint8_t* xdata; ///< NULL: none
     mcs51_observer_t observer;
@@ -170,8 +171,8 @@ static inline void mcs51_set_left(mcs51_t* self, int64_t left)
 
 /// An SFR is plain memory to the engine while left > limit.
 extern const int32_t mcs51_read_limit[256], mcs51_latch_limit[256], mcs51_write_limit[256];
-uint8_t mcs51_read(mcs51_t* self, unsigned address);
-uint8_t mcs51_read_latch(mcs51_t* self, unsigned address); ///< for read-modify-write
+uint8_t mcs51_read(mcs51_t* self, unsigned address, unsigned mask); ///< of it, only `mask` matters to the instruction
+uint8_t mcs51_read_latch(mcs51_t* self, unsigned address);          ///< for read-modify-write
 void mcs51_write(mcs51_t* self, unsigned address, uint8_t value);
 void mcs51_write_port(mcs51_t* self, unsigned address, uint8_t value);
 uint8_t mcs51_psw(const mcs51_t* self);

@@ -11,7 +11,7 @@
 ///   PC                address of the next instruction; O1, O2 operand octets; A, CY (0 or 1), FX (see fx)
 ///   BIT, MASK         octet that holds the bit operand, and its place in it
 ///   RN_GET(x), RN_SET(x)  register N;  RI  register N as a pointer
-///   READ, LATCH(x,d)  x = direct d, seen from the pins or from the latches;  WRITE(d,v)
+///   READ, LATCH(x,d)  x = direct d, seen from the pins or from the latches;  READ_BIT(x): BIT, for MASK;  WRITE(d,v)
 ///   IREAD(x,i)        x = RAM at i;  IWRITE(i,v);  PUSHED(i,v): by the stack;  CODE(x,a);  XREAD(x,a);  XWRITE(a)
 ///   ROOM(n), HOLDS(n) n octets are about to be pushed, popped
 ///   DPTR, DPTR_SET    the selected data pointer;  RETI_DONE;  RESERVED;  SPIN_IF_SELF: a jump to itself
@@ -114,7 +114,7 @@
     OP_RI(row##6, row##7, 1, 1, unsigned v; IREAD(v, RI) IWRITE(RI, v + n)) \
     OP_RN(row, 1, 1, unsigned v; RN_GET(v) RN_SET(v + n))
 #define BIT_READ \
-    unsigned v; READ(v, BIT) v &= MASK;
+    unsigned v; READ_BIT(v) v &= MASK;
 #define BIT_CHANGE(expression) \
     unsigned v; LATCH(v, BIT) WRITE(BIT, expression)
 #define AJMP(x)  JOP(x, IN_PAGE, 2, 2, SPIN_IF_SELF GO)

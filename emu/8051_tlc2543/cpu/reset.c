@@ -42,6 +42,7 @@ static void reset(mcs51_t* self, bool power_on)
     self->wdt_armed = false;
     self->once = 0;
     memset(self->absent_sfr, 0, sizeof self->absent_sfr);
+    memset(self->floating, 0, sizeof self->floating);
     memset(self->alternate, 0xFF, sizeof self->alternate);
     self->p1_watched = 0;
     self->pins_due = MCS51_NEVER;

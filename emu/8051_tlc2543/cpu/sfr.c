@@ -104,7 +104,19 @@ static uint8_t read_synced(mcs51_t* self, unsigned address)
     return self->mem[address];
 }
 
-uint8_t mcs51_read(mcs51_t* self, unsigned address)
+/// An octet that is read whole is usually masked afterwards: it counts when nothing drives any of its pins.
+static void look_for_floating(mcs51_t* self, unsigned port, unsigned mask)
+{
+    const unsigned floats = self->config.undriven(self->config.ctx, port) & self->mem[P0 + 0x10u * port] & mask;
+    if ((floats == mask) && (floats & ~(unsigned)self->floating[port]))
+    {
+        self->floating[port] |= (uint8_t)floats;
+        mcs51_report(self, EMU_GUEST_ERROR, 0, "read of pins that nothing drives (port << 8 | pins)",
+                     port << 8 | floats);
+    }
+}
+
+uint8_t mcs51_read(mcs51_t* self, unsigned address, unsigned mask)
 {
     if (!is_port(address))
     {
@@ -116,6 +128,10 @@ uint8_t mcs51_read(mcs51_t* self, unsigned address)
         self->config.sync(self->config.ctx, now);
     }
     mcs51_sync(self, now);
+    if (self->config.undriven)
+    {
+        look_for_floating(self, (address >> 4) & 3u, mask);
+    }
     return mcs51_port_pins(self, (address >> 4) & 3u);
 }
 

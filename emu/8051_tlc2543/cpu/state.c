@@ -126,6 +126,7 @@ static void registers(mcs51_t* self, emu_state_t* io)
     emu_state_bool(io, &self->wdt_armed);
     emu_state_u32(io, &self->once);
     emu_state_octets(io, self->absent_sfr, sizeof self->absent_sfr);
+    emu_state_octets(io, self->floating, sizeof self->floating);
 }
 
 static void pins_and_uart(mcs51_t* self, emu_state_t* io)

@@ -128,6 +128,22 @@ TEST(parts, stack_overflow_is_the_top_of_ram_or_the_limit_and_wraps_at_ffh)
     EXPECT_NE(b.reports[0].text.find("stack overflow"), std::string::npos);
 }
 
+TEST(parts, stack_overflow_is_told_in_the_midst_of_a_run)
+{
+    const std::vector<std::vector<uint8_t>> runaways = {{0x12, 0x00, 0x00}, {0x11, 0x00}, {0xC0, sfr::ACC, 0x80, 0xFC}};
+    for (const int limit : {0, 0x40, 0xE0})
+    {
+        for (const auto& code : runaways)
+        {
+            bare_cpu b(with(MCS51_AT89S52, 0, 0, static_cast<uint8_t>(limit)));
+            ASSERT_EQ(mcs51_load(b.cpu, 0, code.data(), code.size()), 0);
+            b.run(5000);
+            ASSERT_EQ(b.reports.size(), 1u);
+            EXPECT_EQ(b.reports[0].detail, static_cast<uint8_t>(limit ? limit + 1 : 0)) << +code[0];
+        }
+    }
+}
+
 TEST(external, movx_by_dptr_and_by_ri_with_p2)
 {
     bare_cpu b(with(MCS51_AT89S51, 0, 65536));

@@ -44,6 +44,32 @@ TEST(ports, read_modify_write_works_on_the_latch)
     EXPECT_EQ(b.get(sfr::PSW) >> 7, 1);
 }
 
+TEST(ports, a_read_of_pins_that_nothing_drives_is_told_once)
+{
+    struct outside
+    {
+        std::vector<uint32_t> reports;
+    } o;
+    mcs51_config_t config{};
+    config.clock = {11059200, 12};
+    config.ctx = &o;
+    config.undriven = [](void*, unsigned port) -> uint8_t { return port == 0 ? 0xF3 : port == 2 ? 0xFF : 0x00; };
+    config.report.ctx = &o;
+    config.report.put = [](void* ctx, emu_report_kind_t kind, const char*, uint32_t detail, emu_time_t)
+    {
+        EXPECT_EQ(kind, EMU_GUEST_ERROR);
+        static_cast<outside*>(ctx)->reports.push_back(detail);
+    };
+    mcs51_t* const cpu = mcs51_create(&config);
+    // MOV A,P0 (some are driven); JB P0.2 (driven); MOV A,P1; MOV P0,#7Fh; JB P0.7 (latch 0); MOV C,P0.4 twice; MOV A,P2; SETB P2.0
+    const uint8_t code[] = {0xE5, sfr::P0, 0x20, 0x82, 0x00, 0xE5, sfr::P1, 0x75, sfr::P0, 0x7F, 0x20, 0x87,
+                            0x00, 0xA2,    0x84, 0xA2, 0x84, 0xE5, sfr::P2, 0xD2, 0xA0,    0x80, 0xFE};
+    ASSERT_EQ(mcs51_load(cpu, 0, code, sizeof code), 0);
+    mcs51_run(cpu, 100);
+    EXPECT_EQ(o.reports, (std::vector<uint32_t>{0x010, 0x2FF}));
+    mcs51_destroy(cpu);
+}
+
 TEST(ports, changes_are_told_with_their_cycle)
 {
     bare_cpu b;

@@ -21,6 +21,9 @@ typedef void (*mcs51_sync_fn)(void* ctx, uint64_t cycle);
 /// The watchdog drives RST, high and 98 oscillator periods later low (told in whole machine cycles), unless AUXR.DISRTO; may be NULL.
 typedef void (*mcs51_rst_fn)(void* ctx, bool high, uint64_t cycle);
 
+/// Pins of a port that nothing drives while their latch is 1, no pull-up either; NULL: none. Reading one is reported, once after a reset.
+typedef uint8_t (*mcs51_undriven_fn)(void* ctx, unsigned port);
+
 typedef enum mcs51_part_t
 {
     MCS51_AT89S51 = 0, ///< 4 KB flash, 128 octets of RAM
@@ -34,7 +37,8 @@ typedef struct mcs51_config_t
     mcs51_port_fn port;
     mcs51_sync_fn sync;
     mcs51_rst_fn rst;
-    void* ctx; ///< for port, sync, rst
+    mcs51_undriven_fn undriven;
+    void* ctx; ///< for port, sync, rst, undriven
     emu_report_t report;
     mcs51_part_t part;
     /// Flash and, behind it, external code memory, 65536 at most; 0: the flash alone. /EA low, where all of it is external, runs the
