@@ -108,8 +108,12 @@ def test_bad_options(ins, image, options, words):
     refused(ins("run", image(bytes.fromhex("80FE")), *options), *words)
 
 
-def test_a_bare_image_without_options(ins, image):
-    done = ins("run", image(bytes.fromhex("80FE")), "--stop-s", 0.1)
+def test_a_bare_image_without_options(ins, image, tmp_path):
+    page = tmp_path / "r.html"
+    done = ins("run", image(bytes.fromhex("80FE")), "--stop-s", 0.1, "--report", page)
     assert done.returncode == 0, done.stderr
     assert "small.ihx: small.ihx" in done.stdout
+    assert "<h2>Scenario</h2>" not in page.read_text(encoding="utf-8")
+    upper = image(bytes.fromhex("80FE")).rename(tmp_path / "SMALL.HEX")
+    assert ins("run", upper, "--stop-s", 0.1).returncode == 0
     refused(ins("run", "no/such.ihx"), "no/such.ihx", "No such file")

@@ -52,6 +52,6 @@ def html(scenario: Scenario, result: Result, view: views.View | None = None) -> 
         scope=_markup(pictures.scope(view)) if view else None,
         profile=profile.text(result.summary["observed"]) if "coverage" in result.summary.get("observed", {}) else None,
         axes=AXES,
-        scenario_text=scenario.path.read_text(encoding="utf-8"),
+        scenario_text=scenario.text,
         ages=np.round(result.states[:, COLUMNS["age_s"]] * 1e3, 3) if len(result.states) else None,
     )

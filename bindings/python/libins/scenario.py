@@ -162,10 +162,20 @@ class Scenario:
         return [*([] if self.csv is None else [self.csv]), *self.volts.values()]
 
     @property
+    def text(self) -> str:
+        """The file's, for a report; empty for an image alone."""
+        return "" if is_image(self.path) else self.path.read_text(encoding="utf-8")
+
+    @property
     def name(self) -> str:
         """The file's, with the combination in brackets: default[link.baud=9600, seed=2]."""
         inside = ", ".join(f"{key}={value}" for key, value in self.combination.items())
         return self.path.stem + (f"[{inside}]" if inside else "")
+
+
+def is_image(path: Path) -> bool:
+    """Whether it is an Intel HEX file by its name."""
+    return path.suffix.lower() in IMAGES
 
 
 def find(name: str) -> Path:
@@ -187,7 +197,7 @@ def load(
     An Intel HEX image in the place of a scenario runs on a bare board. settings and combination replace keys by dotted
     name: from the command line, and from the table called origin.
     """
-    if path.suffix in IMAGES:
+    if is_image(path):
         document, firmware = Document(path, copy.deepcopy(BARE)), firmware or path
     else:
         document = Document(path)
@@ -227,7 +237,7 @@ def load_all(path: Path, firmware: Sequence[Path] = (), settings: Mapping[str, A
 
     A key that settings or firmware give is no longer varied.
     """
-    document = Document(path, BARE if path.suffix in IMAGES else None)
+    document = Document(path, BARE if is_image(path) else None)
     given = {*(settings or {}), *(("firmware",) if firmware else ())}
     axes = {key: v for key, v in _axes(document, (), document.table.get("matrix", {})) if key not in given}
     count = math.prod(map(len, axes.values())) * max(1, len(firmware))
