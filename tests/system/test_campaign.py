@@ -277,3 +277,21 @@ def test_two_campaigns_do_not_write_in_one_folder(campaign, tmp_path):
     out, error = process.communicate(timeout=PATIENCE_S)
     assert len(rows(tmp_path / "out")) == 4, error
     assert all((tmp_path / "out" / name).stat().st_size for name in TABLES)
+
+
+def test_faults_come_by_chance_and_are_counted(campaign, tmp_path):
+    plan = """
+[[fault]]
+kind = "wire_short"
+net = "DATA OUT"
+to = "gnd"
+[campaign]
+fault.0.on = { chance = 0.5 }
+"""
+    campaign(write(tmp_path, plan), "--runs", RUNS, "--out", tmp_path / "out")
+    frame = polars.read_csv(tmp_path / "out/table.csv")
+    broken = frame["set.fault.0.on"]
+    assert 0 < broken.sum() < RUNS
+    assert frame["faults.0.wire_short"].to_list() == broken.cast(int).to_list()
+    whole = frame.filter(~broken)["trace_sha256"]
+    assert whole.n_unique() == 1 and whole[0] not in frame.filter(broken)["trace_sha256"]
