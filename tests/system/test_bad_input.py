@@ -118,9 +118,9 @@ def test_bad_options(ins, options, words):
 
 
 def test_unknown_option_is_usage(ins):
-    done = ins("run", "default", "--vcd", "x.vcd")
+    done = ins("run", "default", "--waves", "x.vcd")
     assert done.returncode == 2
-    assert "--vcd" in done.stderr
+    assert "--waves" in done.stderr
 
 
 def test_port_in_use(ins):

@@ -1,11 +1,16 @@
 """The reader of SDCC's linked listings, against what the .cdb of the same image says, and on images without one."""
 
+import os
+
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from libins.cdb_types import CdbError
 from sdcc_kit import FIRMWARE, build
 
 from libins import cdb, coverage, listing, observe, run, scenario
 
+EXAMPLES = 500 if os.environ.get("INS_BENCH") == "1" else 50
 PROGRAMS = ("kinds", "observed")
 
 
@@ -71,3 +76,26 @@ def test_a_source_that_the_listing_does_not_place_is_looked_for(both, tmp_path):
     said, read = both
     assert coverage.sources(read, [tmp_path]) == {f"{said.modules[0]}.c": FIRMWARE / f"{said.modules[0]}.c"}
     assert coverage.sources(said, [FIRMWARE]) == coverage.sources(read, [])
+
+
+@settings(max_examples=EXAMPLES, deadline=None, derandomize=True)
+@given(data=st.data())
+def test_damage_is_an_error_or_another_table(both, tmp_path_factory, data):
+    """Lines dropped, doubled, cut and octets changed."""
+    said, _ = both
+    lines = said.path.with_suffix(".rst").read_text(encoding="ascii").splitlines()
+    for _ in range(data.draw(st.integers(1, 5))):
+        i = data.draw(st.integers(0, len(lines) - 1))
+        at = data.draw(st.integers(0, len(lines[i])))
+        change = data.draw(st.sampled_from(["", lines[i] * 2, lines[i][:at], lines[i][:at] + "[F ;\t" + lines[i][at:]]))
+        lines[i] = change
+    path = tmp_path_factory.getbasetemp() / "fuzz.rst"
+    path.write_text("\n".join(lines), encoding="ascii")
+    try:
+        table = listing.load([path])
+    except CdbError as error:
+        assert str(path) in str(error)
+        return
+    for address in (0, 0x80, 0xFFFF):
+        table.function_at(address)
+        table.line_at(address)

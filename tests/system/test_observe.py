@@ -260,3 +260,17 @@ def test_what_cannot_be_looked_at(ins, folder, tmp_path, options, message):
     done = ins("run", tmp_path / "o.toml", *[option.format(folder=folder) for option in options])
     assert done.returncode == 2
     assert re.search(message, done.stderr)
+
+
+def test_an_expectation_on_what_was_observed(ins, folder, tmp_path):
+    """Its value is there with --profile, and is judged."""
+    path = tmp_path / "expect.toml"
+    limits = "".join(
+        f'[[expect]]\nvalue = "observed.{value}"\nat_most = {limit}\n'
+        for value, limit in (("interrupts.slow.worst", SLOW), ("stack.octets", 100))
+    )
+    path.write_text(SCENARIO.format(firmware=folder / "observed.ihx") + limits, encoding="ascii")
+    done = ins("run", path, "--profile", tmp_path / "p.txt")
+    assert done.returncode == 1
+    assert f"observed.interrupts.slow.worst = {SLOW + QUICK}, expected at most {SLOW}" in done.stdout
+    assert "observed.stack.octets" not in done.stdout
