@@ -18,7 +18,9 @@ def rows(text: str) -> list[list[str]]:
 def test_every_rule_has_a_test_that_exists():
     sources = sorted((ROOT / "tests/emu_8051").glob("*/*.cpp"))
     tests = {
-        ".".join(found) for path in sources for found in re.findall(r"^TEST(?:_F)?\((\w+),\s*(\w+)\)", path.read_text(), re.M)
+        ".".join(found)
+        for path in sources
+        for found in re.findall(r"^TEST(?:_F)?\((\w+),\s*(\w+)\)", path.read_text(), re.M)
     }
     rules = rows(RULES)
     assert len(rules) >= LEAST_RULES

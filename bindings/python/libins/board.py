@@ -27,7 +27,7 @@ from libins.errors import UsageError
 from libins.observe import Observation, Wanted
 from libins.report import report_line
 from libins.run import PS_PER_S
-from libins.schema import Document
+from libins.schema import Document, leaves
 from libins.snapshot import Snapshot
 
 __all__ = ["Board", "ExpectError", "Snapshot"]
@@ -43,14 +43,6 @@ class Input:
     at_ps: int
     what: str
     arguments: tuple[Any, ...]
-
-
-def _leaves(keys: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    for name, value in keys.items():
-        if isinstance(value, Mapping):
-            yield from _leaves(value, f"{prefix}{name}.")
-        else:
-            yield prefix + name, value
 
 
 class Board:
@@ -79,7 +71,7 @@ class Board:
                 document = Document(scenario.find(str(scenario_file)))
             if firmware is not None:
                 document.override({"firmware": _image(firmware)}, "Board")
-            document.override(dict(_leaves(keys)), "Board")
+            document.override(dict(leaves(keys)), "Board")
             scenario_file = scenario.read(document, None)
         elif keys or firmware is not None:
             raise UsageError("Board: a scenario that is loaded takes no keys")
