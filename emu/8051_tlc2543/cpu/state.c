@@ -169,6 +169,7 @@ void mcs51_state(mcs51_t* self, emu_state_t* io)
     if (emu_state_loading(io) && !io->bad)
     {
         mcs51_plan(self);
+        self->overflow_known = false;
         emu_state_check(io, mcs51_cycle(self) < OVERDUE || self->periph_at >= mcs51_cycle(self) - OVERDUE);
         self->passed_pc = NO_PC;
         self->stop = false;
