@@ -77,9 +77,22 @@ def test_a_global_has_its_type_and_place(table, folder, name, declared, size, sp
         assert symbol.address == int(linked[1], 16)
 
 
-def test_a_bit_has_a_type_and_no_address(table):
-    assert (table.find("flag").type.bits, table.find("flag").space) == ((0, 1), Space.BIT)
-    assert table.find("flag").address is None
+def test_the_address_of_a_bit_is_in_the_listing(table, folder, tmp_path):
+    """The instruction that sets it has it as its operand."""
+    flag = table.find("flag")
+    assert (flag.type.bits, flag.space) == ((0, 1), Space.BIT)
+    operand = re.search(r"D2 ([0-9A-F]{2}) .*setb\t_flag", (folder / "kinds.rst").read_text(encoding="ascii"))
+    assert operand
+    assert flag.address == int(operand[1], 16)
+    alone = tmp_path / "kinds.cdb"
+    alone.write_bytes((folder / "kinds.cdb").read_bytes())
+    assert cdb.load(alone).find("flag").address is None
+
+
+def test_bits_of_several_modules_follow_each_other():
+    """Four of acq.c, which the linker puts first."""
+    table = cdb.load(scenario.PACKAGE / "firmware/acq_default_debug.cdb")
+    assert [table.find(name).address for name in ("rx_full", "tx_full", "tx_idle", "event")] == [0, 1, 2, 3]
 
 
 def test_a_local_hides_the_global_of_its_name(table):

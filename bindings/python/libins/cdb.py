@@ -9,8 +9,8 @@ Format: "CDB File Format", SDCC 2003, and what SDCC 4.2 writes.
     table.find("sampled").address         # 0x10, in Space.DATA
 
 SDCC moves and joins code, so a line may begin at several addresses, and several lines at one. A local variable whose
-record SDCC leaves out (most of those overlaid with others) has an address but no type, a __bit variable a type but no
-address.
+record SDCC leaves out (most of those overlaid with others) has an address but no type. The address of a __bit variable
+is only in the linked listing of its module (.rst); without it beside the .cdb, it is None.
 """
 
 import re
@@ -331,6 +331,21 @@ def _address(m: re.Match[str]) -> int:
     return address
 
 
+def _with_bit(symbol: Symbol, path: Path) -> Symbol:
+    """A global or static __bit variable with its address, from the listing of its module."""
+    if symbol.space is not Space.BIT or symbol.address is not None or symbol.function is not None:
+        return symbol
+    for listing in (path.with_name(f"{path.stem}.{symbol.module}.rst"), path.with_name(f"{symbol.module}.rst")):
+        if listing.exists():
+            label = re.search(
+                rf"^ {{6}}([0-9A-F]{{6}}) +\d+ _{re.escape(symbol.name)}::?$",
+                listing.read_text(encoding="utf-8", errors="replace"),
+                re.MULTILINE,
+            )
+            return replace(symbol, address=int(label[1], 16)) if label else symbol
+    return symbol
+
+
 def load(path: Path) -> Cdb:
     """Read a .cdb file. Raises CdbError, which names the file, the line and the remedy."""
     try:
@@ -350,6 +365,7 @@ def load(path: Path) -> Cdb:
             raise CdbError(f"{path}:{number}: {error}; build the firmware again with sdcc --debug") from error
     try:
         table = reader.finish()
+        table.symbols = [_with_bit(symbol, path) for symbol in table.symbols]
     except CdbError as error:
         raise CdbError(f"{path}: {error}; build the firmware again with sdcc --debug") from error
     if not table.functions:
