@@ -212,4 +212,4 @@ OP_RI(E2, E3, 1, 2, XREAD(A, mem[P2] * 256u + RI))
 OP(F0, 1, 2, XWRITE(DPTR))
 OP_RI(F2, F3, 1, 2, XWRITE(mem[P2] * 256u + RI))
 OP(A5, 1, 1, RESERVED)
-// clang-format on
+    // clang-format on

@@ -88,9 +88,9 @@
     }
 #define ALL_BITS(self, d) mcs51_read(self, d, 0xFFu)
 #define THE_BIT(self, d)  mcs51_read(self, d, MASK)
-#define READ(x, d)  READ_BY(mcs51_read_limit, ALL_BITS, x, d)
-#define READ_BIT(x) READ_BY(mcs51_read_limit, THE_BIT, x, BIT)
-#define LATCH(x, d) READ_BY(mcs51_latch_limit, mcs51_read_latch, x, d)
+#define READ(x, d)        READ_BY(mcs51_read_limit, ALL_BITS, x, d)
+#define READ_BIT(x)       READ_BY(mcs51_read_limit, THE_BIT, x, BIT)
+#define LATCH(x, d)       READ_BY(mcs51_latch_limit, mcs51_read_latch, x, d)
 #define WRITE(d, v)                                                                                                    \
     {                                                                                                                  \
         const unsigned w_ = (d), written_ = (v);                                                                       \

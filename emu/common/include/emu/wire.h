@@ -46,8 +46,8 @@ typedef struct emu_wire_t
     bool level;
     bool floating;
     emu_time_t changed; ///< instant of the last change of level
-    bool shorted; ///< either of the two below is set
-    uint8_t rail; ///< emu_rail_t; is not part of the state: whoever makes shorts makes them again
+    bool shorted;       ///< either of the two below is set
+    uint8_t rail;       ///< emu_rail_t; is not part of the state: whoever makes shorts makes them again
     struct emu_wire_t* bridge;
     uint64_t contentions;
 } emu_wire_t;
