@@ -308,17 +308,17 @@ void mcs51_decode_here(ARGUMENTS)
     ENTER
 }
 
-/// Cycles in which octet d cannot change: to the horizon, or to the next overflow that sets a flag.
-static uint32_t quiet(const mcs51_t* self, unsigned d)
+/// Cycles in which the bit that is polled cannot change: to the horizon, or to the overflow that sets it.
+static uint32_t quiet(const mcs51_t* self, const entry_t* ip)
 {
-    uint64_t cycles = (uint64_t)mcs51_left(self);
-    const uint64_t now = mcs51_now(self);
-    for (unsigned n = 0; d == TCON && n < 2; ++n)
+    const uint32_t cycles = (uint32_t)mcs51_left(self);
+    const bool tf0 = ip->o2 == 0x20u, tf1 = ip->o2 == 0x80u;
+    if (ip->o1 != TCON || !(tf0 || tf1))
     {
-        const uint64_t at = mcs51_timer_next(self, n);
-        cycles = at - 1u - now < cycles ? at - 1u - now : cycles;
+        return cycles;
     }
-    return (uint32_t)cycles;
+    const uint64_t before = mcs51_timer_next(self, tf1) - 1u - mcs51_now(self);
+    return before < cycles ? (uint32_t)before : cycles;
 }
 
 static unsigned polled(mcs51_t* self, const entry_t* ip)
@@ -330,6 +330,7 @@ static unsigned polled(mcs51_t* self, const entry_t* ip)
 void mcs51_poll(ARGUMENTS)
 {
     const unsigned d = ip->o1;
+    ++self->passes;
     if (d == TCON)
     {
         mcs51_timers_sync(self, mcs51_now(self));
@@ -340,7 +341,7 @@ void mcs51_poll(ARGUMENTS)
         INSTEAD(mcs51_handlers[ip->operand][ip->opcode])
     }
     const bool jumps_back = ip->target != ip;
-    self->budget -= (int64_t)(quiet(self, d) / ip->turn) * MCS51_SPENT(ip->turn, ip->turn / 2u);
+    self->budget -= (int64_t)(quiet(self, ip) / ip->turn) * MCS51_SPENT(ip->turn, ip->turn / 2u);
     self->budget -= jumps_back ? MCS51_SPENT(2, 1) : 0;
     if (mcs51_left(self) >= 2)
     {

@@ -63,6 +63,11 @@ uint64_t mcs51_instructions(const mcs51_t* self)
     return self->instructions + (uint32_t)self->budget;
 }
 
+uint64_t mcs51_passes(const mcs51_t* self)
+{
+    return self->passes;
+}
+
 uint64_t mcs51_interrupts(const mcs51_t* self)
 {
     return self->interrupts;
@@ -131,7 +136,7 @@ static void freeze(mcs51_t* self, uint64_t now, uint64_t until)
 
 static mcs51_stop_t run(mcs51_t* self)
 {
-    for (;;)
+    for (;; ++self->passes)
     {
         const uint64_t now = mcs51_now(self);
         if ((self->reset_request != RESET_NONE || self->rst_due <= now) &&

@@ -96,7 +96,7 @@ typedef struct mcs51_next_t
 struct mcs51_t
 {
     mcs51_config_t config;
-    uint64_t horizon, until, instructions, interrupts;
+    uint64_t horizon, until, instructions, interrupts, passes;
     int64_t budget; ///< left * 2^32 + instructions that `instructions` does not hold
     uint32_t pc;
     uint32_t cy; ///< 0 or 1

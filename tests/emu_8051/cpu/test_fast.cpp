@@ -142,4 +142,42 @@ TEST(fast, agrees_with_the_plain_engine_on_random_programs)
     EXPECT_GT(stops, programs);
 }
 
+constexpr uint64_t HOUR = 3600ull * (11'059'200 / 12);
+
+/// Timer 0 runs over every 65,536 cycles; what is loaded at 0x40 waits, the handler counts in 30h and 31h.
+void set_up_hour(bare_cpu& b, std::initializer_list<int> waiting)
+{
+    b.load(0, {0x80, 0x5E});
+    b.load(0x60, {0x75, sfr::TMOD, 0x21, 0x75, sfr::TH1, 0xFD, 0xD2, 0x8C, 0xD2, 0x8E});
+    b.load(0x6A, {0x75, sfr::SCON, 0x40, 0x80, 0xD1});
+    b.load(0x0B, {0x02, 0x00, 0x80});
+    b.load(0x40, waiting);
+    b.load(0x80, {0x05, 0x30, 0xE5, 0x30, 0x70, 0x02, 0x05, 0x31, 0xD2, 0x08, 0x32}); // count; SETB 21h.0; RETI
+}
+
+TEST(fast, an_hour_of_waiting_costs_what_its_events_cost)
+{
+    constexpr uint64_t OVERFLOWS = HOUR / 0x10000 - 1, PASSES_AN_EVENT = 8;
+    const std::vector<std::initializer_list<int>> waits = {
+        {0x75, sfr::IE, 0x82, 0x75, sfr::PCON, 0x01, 0x80, 0xFB},        // idle, again and again
+        {0x75, sfr::IE, 0x82, 0x80, 0xFE},                               // SJMP $
+        {0x75, sfr::IE, 0x82, 0x30, 0x08, 0xFD, 0xC2, 0x08, 0x80, 0xF9}, // JNB flag,$
+        {0x75, sfr::IE, 0x82, 0x10, 0x08, 0x02, 0x80, 0xFB, 0x80, 0xF9}, // JBC flag; SJMP back
+        {0x30, 0x8D, 0xFD, 0xC2, 0x8D, 0x80, 0xF9},                      // JNB TF0,$
+        {0x20, 0x90, 0xFD},                                              // JB P1.0,$, to the end
+        {0x75, sfr::IE, 0x82, 0x30, 0x99, 0xFD},                         // JNB TI,$, which never comes
+    };
+    for (size_t i = 0; i < waits.size(); ++i)
+    {
+        bare_cpu b;
+        set_up_hour(b, waits[i]);
+        EXPECT_EQ(b.run(HOUR), MCS51_RAN) << i;
+        EXPECT_LE(mcs51_passes(b.cpu), PASSES_AN_EVENT * (OVERFLOWS + 2)) << i;
+        if (i < 4 || i == 6)
+        {
+            EXPECT_EQ(mcs51_interrupts(b.cpu), OVERFLOWS) << i;
+        }
+    }
+}
+
 } // namespace

@@ -52,6 +52,8 @@ EMU_API uint64_t mcs51_cycle(const mcs51_t* self);
 EMU_API uint64_t mcs51_instructions(const mcs51_t* self);
 /// Interrupts taken since create.
 EMU_API uint64_t mcs51_interrupts(const mcs51_t* self);
+/// Times since create that the CPU came to an event or to a waiting loop, which is what waiting costs the host.
+EMU_API uint64_t mcs51_passes(const mcs51_t* self);
 
 /// Levels the outside puts on a port's pins (1 where nothing pulls low). Pin read = latch AND outside. Edges reach INT0/1, T0/1, RXD.
 EMU_API void mcs51_set_pins(mcs51_t* self, unsigned port, uint8_t outside, uint64_t cycle);
