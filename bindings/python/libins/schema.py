@@ -2,6 +2,7 @@
 
 import dataclasses
 import difflib
+import functools
 import math
 import re
 import tomllib
@@ -25,6 +26,12 @@ def field(default: Any = dataclasses.MISSING, **limits: Any) -> Any:
     return dataclasses.field(default=default, metadata=limits)
 
 
+@functools.cache
+def _hints(schema: Any) -> dict[str, Any]:
+    """Types of a class's fields, which a campaign asks for thousands of times."""
+    return typing.get_type_hints(schema)
+
+
 def kind(schema: Any, key: Sequence[str]) -> Any:
     """The type of the scalar of that name, array places as numbers ("expect", "0", "at_most"); None: no such scalar."""
     hint: Any = schema
@@ -32,7 +39,7 @@ def kind(schema: Any, key: Sequence[str]) -> Any:
         if isinstance(hint, types.UnionType):
             hint = next(part for part in typing.get_args(hint) if part is not types.NoneType)
         if dataclasses.is_dataclass(hint):
-            hint = typing.get_type_hints(hint).get(name)
+            hint = _hints(hint).get(name)
         elif typing.get_origin(hint) is list and name.isdigit():
             (hint,) = typing.get_args(hint)
         elif name:
@@ -123,7 +130,7 @@ class Document:
         """A dataclass instance from a table. Raises UsageError."""
         if not isinstance(table, dict):
             raise self.refuse(key, f"found {table!r}, but a table is needed here")
-        hints = typing.get_type_hints(schema)
+        hints = _hints(schema)
         fields = {f.name: f for f in dataclasses.fields(schema)}  # type: ignore[arg-type]
         values: dict[str, Any] = {}
         for name, value in table.items():
