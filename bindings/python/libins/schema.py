@@ -39,7 +39,7 @@ def kind(schema: Any, key: Sequence[str]) -> Any:
         if isinstance(hint, types.UnionType):
             hint = next(part for part in typing.get_args(hint) if part is not types.NoneType)
         if dataclasses.is_dataclass(hint):
-            hint = _hints(hint).get(name)
+            hint = _hints(hint).get(name)  # type: ignore[arg-type]
         elif typing.get_origin(hint) is list and name.isdigit():
             (hint,) = typing.get_args(hint)
         elif name:
@@ -130,7 +130,7 @@ class Document:
         """A dataclass instance from a table. Raises UsageError."""
         if not isinstance(table, dict):
             raise self.refuse(key, f"found {table!r}, but a table is needed here")
-        hints = _hints(schema)
+        hints = _hints(schema)  # type: ignore[arg-type]
         fields = {f.name: f for f in dataclasses.fields(schema)}  # type: ignore[arg-type]
         values: dict[str, Any] = {}
         for name, value in table.items():
