@@ -92,6 +92,12 @@ def measure() -> list[Row]:
         if not mcs51.exists():
             raise SystemExit(f"{script.name} gave no figures (exit code {done.returncode})")
         rows += json.loads(mcs51.read_text())
+        board = Path(folder) / "board.json"
+        script = ROOT / "bench/mcs51/bench_board.py"
+        done = subprocess.run([sys.executable, script, "--build", BUILD, "--json", board])
+        if not board.exists():
+            raise SystemExit(f"{script.name} gave no figures (exit code {done.returncode})")
+        rows += json.loads(board.read_text())
         targets = Path(folder) / "targets.json"
         subprocess.run([sys.executable, ROOT / "bench/targets/measure.py", "--json", targets], check=True)
         rows += json.loads(targets.read_text())

@@ -12,6 +12,7 @@ namespace libins
 namespace
 {
 
+constexpr emu_time_t ms = 1'000'000'000;
 constexpr double pi = 3.14159265358979323846;
 /// A block is looked for among the scans of this many periods before it was accepted: the board sends its newest scan, and gives a
 /// block up long before.
@@ -131,20 +132,20 @@ void Run::wire_up()
 
 bool Run::until(emu_time_t t)
 {
-    constexpr emu_time_t tick = 1'000'000'000; // the host looks at its time-outs each millisecond
+    constexpr emu_time_t look_most = EMU_PS_PER_S; // the host's clock of milliseconds has 16 bits
     while (sched_.now < t)
     {
         if (faults_->next() <= sched_.now)
         {
             faults_->apply();
         }
-        const emu_time_t look = config_.nav ? std::min(t, (sched_.now / tick + 1) * tick) : t;
+        const emu_time_t look = config_.nav ? std::min(t, sched_.now + look_most) : t;
         const emu_time_t next = std::min(look, faults_->next());
         const mcs51_stop_t stop = acq_board_run(board_.get(), next);
         halted_ = stop == MCS51_HALTED;
         if (config_.nav)
         {
-            ins_nav_link_tick(&link_, static_cast<uint64_t>(sched_.now / tick));
+            ins_nav_link_tick(&link_, static_cast<uint64_t>(sched_.now / ms));
         }
         if (stop == MCS51_STOPPED)
         {
@@ -262,8 +263,9 @@ void Run::on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at)
     }
     int reply = -1;
     ins_nav_sample_t sample;
-    const int fresh =
-        ins_nav_link_octet(&self.link_, octet, static_cast<uint64_t>(at / 1'000'000'000), &reply, &sample);
+    // A time-out shows in what it makes of the next octet: it is looked for then, and not each millisecond.
+    ins_nav_link_tick(&self.link_, static_cast<uint64_t>(at / ms));
+    const int fresh = ins_nav_link_octet(&self.link_, octet, static_cast<uint64_t>(at / ms), &reply, &sample);
     if (reply >= 0)
     {
         emu_serial_end_send(&self.end_, static_cast<uint8_t>(reply));
