@@ -11,7 +11,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from libins import campaign, endpoint, report, run, scenario, seeing
+from libins import campaign, debug_cli, endpoint, report, run, scenario, seeing
 from libins.errors import UsageError
 from libins.program import CONSOLES, Program, address, exit_place
 
@@ -79,6 +79,14 @@ def parser() -> argparse.ArgumentParser:
         "command goes on.",
     )
     campaign.add_options(c)
+
+    g = commands.add_parser(
+        "debug",
+        help="stop a board, look at it, step and run back",
+        description="A debugger with gdb's words; help lists them. Exit codes: 0, 1 a command of a script failed, "
+        "2 bad usage, or what quit says.",
+    )
+    debug_cli.options(g)
 
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
 
@@ -327,8 +335,8 @@ def main(arguments: list[str] | None = None) -> int:
             path = navd_path()
             os.execv(path, [str(path), *arguments[1:]])
         options = parser().parse_args(arguments)
-        command = {"run": _run_command, "campaign": campaign.command, "sub": _sub_command}[options.command]
-        return command(options)
+        commands = {"run": _run_command, "campaign": campaign.command, "debug": debug_cli.run, "sub": _sub_command}
+        return commands[options.command](options)
     except UsageError as error:
         print(f"ins: {error}", file=sys.stderr)
         return EXIT_USAGE

@@ -5,6 +5,7 @@
 /// handshake and navigator in virtual time (or hands the octets out, when somebody outside plays the host).
 /// SPDX-License-Identifier: MIT
 #pragma once
+#include "debug.hpp"
 #include "emu/serial.h"
 #include "emu_8051/acq_board.h"
 #include "faults.hpp"
@@ -140,6 +141,8 @@ class Run
     void set_volts(unsigned channel, double volts) { volts_[channel] = volts; }
     void clear_volts(unsigned channel) { volts_.erase(channel); }
     Faults& faults() { return *faults_; }
+    /// Of a debugger; made when first asked for.
+    Watcher& watcher() { return watcher_ ? *watcher_ : watcher_.emplace(board_.get(), *observers_); }
     /// From this instant on.
     void set_motion(std::shared_ptr<ins_motion_t> motion);
     /// Octets from the outside; \return how many the transmitter took.
@@ -207,6 +210,7 @@ class Run
     std::optional<Observers> observers_;
     std::optional<Program> program_;
     bool halted_ = false;
+    std::optional<Watcher> watcher_;
     emu_wire_t host_rxd_{}, host_txd_{};
     std::array<emu_serial_line_t, 2> lines_{};
     std::vector<emu_serial_cut_t> cuts_;

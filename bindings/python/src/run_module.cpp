@@ -1,6 +1,7 @@
 /// \file   run_module.cpp
 /// \brief  The Python module libins._run: motions, gyros and runs, over the C libraries. SPDX-License-Identifier: MIT
 #include "board_module.hpp"
+#include "debug_module.hpp"
 #include "ins/coning.h"
 #include "observe_module.hpp"
 #include "run.hpp"
@@ -336,6 +337,7 @@ NB_MODULE(_run, m)
     nb::class_<Run> run(m, "Run", "See run.hpp.");
     libins::bind_board(run);
     libins::bind_faults(m, run);
+    libins::bind_debug(m, run);
     run.def(
            "__init__",
            [](Run* self, const RunConfig& config, const Motion& motion, const ins_gyro_config_t& gyro)
