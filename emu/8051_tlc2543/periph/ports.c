@@ -38,7 +38,7 @@ static void inputs_changed(mcs51_t* self, unsigned port, uint64_t at)
     }
 }
 
-void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at)
+static inline void port_drive(mcs51_t* self, unsigned port, uint64_t at)
 {
     const uint8_t out = drive(self, port), changed = out ^ self->out[port];
     if (!changed)
@@ -56,12 +56,17 @@ void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at)
     }
 }
 
+void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at)
+{
+    port_drive(self, port, at);
+}
+
 void mcs51_write_port(mcs51_t* self, unsigned address, uint8_t value)
 {
     const uint64_t now = mcs51_now(self);
     mcs51_before_write(self, now);
     self->mem[address] = value;
-    mcs51_port_drive(self, address >> 4 & 3u, now);
+    port_drive(self, address >> 4 & 3u, now);
 }
 
 void mcs51_alternate(mcs51_t* self, unsigned port, uint8_t mask, bool level, uint64_t at)

@@ -2,6 +2,8 @@
 """Boards on threads share nothing that is written: no object of the library has writable static data.
 
     shares_nothing.py OBJDUMP OBJECT [...]
+
+Exit 1: one has.
 """
 
 import re

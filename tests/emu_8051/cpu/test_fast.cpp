@@ -180,4 +180,47 @@ TEST(fast, an_hour_of_waiting_costs_what_its_events_cost)
     }
 }
 
+// TXD has an event where it changes; what passes without one counts at the rate of its time.
+TEST(fast, smod_changed_amid_equal_bits_is_exact)
+{
+    constexpr uint64_t BIT = 32; // T1 overflows in each cycle, SMOD = 0
+    for (const uint64_t after : {3 * BIT + 5, 5 * BIT + 17, 8 * BIT + 1})
+    {
+        bare_cpu b;
+        b.load(0, {0x80, 0xFE});
+        b.set(sfr::IE, 0x80);
+        b.set(sfr::TMOD, 0x20);
+        b.set(sfr::TH1, 0xFF);
+        b.set(sfr::TL1, 0xFF);
+        b.set(sfr::SCON, 0x40);
+        b.set(sfr::TCON, 0x40);
+        b.run(1000);
+        b.set(sfr::SBUF, 0x00); // low from the start bit to the stop bit
+        b.run(1000 + BIT);
+        ASSERT_EQ(b.edges.size(), 1u);
+        const uint64_t start = b.edges[0].cycle;
+        b.run(start + after);
+        b.set(sfr::PCON, 0x80);
+        b.run(3000);
+        ASSERT_EQ(b.edges.size(), 2u);
+        const uint64_t changed = (after / BIT + 1) * BIT; // the bit under way keeps its length
+        EXPECT_EQ(b.edges[1].cycle - start, changed + (9 - changed / BIT) * BIT / 2) << after;
+    }
+}
+
+TEST(fast, breakpoint_on_the_jump_back_of_a_waiting_loop_stops_in_each_turn)
+{
+    bare_cpu b;
+    b.load(0, {0x10, 0x08, 0x02, 0x80, 0xFB, 0x80, 0xFE}); // JBC 21h.0,+2; SJMP 0; SJMP $
+    EXPECT_EQ(b.run(101), MCS51_RAN);
+    for (unsigned turn = 0; turn < 5; ++turn)
+    {
+        mcs51_set_break(b.cpu, 3, true);
+        const uint64_t from = b.now();
+        ASSERT_EQ(b.run(from + 100), MCS51_STOPPED);
+        EXPECT_EQ(b.pc(), 3);
+        EXPECT_LE(b.now() - from, 4u);
+    }
+}
+
 } // namespace
