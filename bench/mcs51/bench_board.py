@@ -3,8 +3,8 @@
 
     bench_board.py --build BUILD [--json F]
 
-BUILD holds bench_default_run, bench_board_edge and the firmware. Start-up is subtracted: each figure is the difference
-of two runs. Exit 1: a budget is exceeded.
+BUILD holds bench_default_run, bench_board_edge, bench_step_back, bench_cpu.bin and the firmware. Start-up is
+subtracted: each figure is the difference of two runs. Exit 1: a budget is exceeded.
 """
 
 import argparse
@@ -24,6 +24,7 @@ BUDGETS = {
     "board.edge.clock.instructions": 440,
     "board.save.instructions": 92_400,
     "board.restore.instructions": 187_500,
+    "mcs51.step_back.instructions": 304_800,
 }
 Row = dict[str, object]
 
@@ -67,6 +68,10 @@ def measure(build: Path) -> list[Row]:
     found = re.search(r"snapshot (\d+)", printed)
     assert found, printed
     put("board.snapshot.octets", float(found[1]), "octets")
+    back, program = build / "bench/mcs51/bench_step_back", build / "tests/emu_8051/cpu/bench_cpu.bin"
+    put("mcs51.step_back.instructions", slope(lambda n: callgrind(back, program, n)[0], 10, 110), "instructions")
+    wall = subprocess.run([back, program, "1000"], capture_output=True, text=True, check=True).stdout.split()
+    put("mcs51.step_back.mean_us", float(wall[3]), "us")
     ram = slope(lambda n: callgrind(edge, "ram", n)[0], 1000, 101000)
     for what in ("pin", "clock"):
         with_edges = slope(lambda n, what=what: callgrind(edge, what, n)[0], 1000, 101000)  # type: ignore[misc]

@@ -96,6 +96,19 @@ def test_the_stack_of_recursive_calls_and_of_an_interrupt(d):
     assert [f.function.name for f in d.frames()] == names[1:]
 
 
+def test_an_interrupt_knows_where_it_came_from_at_each_of_its_instructions(d):
+    tick = d.table.function("tick")
+    for instruction in [line.address for line in d.table.asm_lines if tick.begin <= line.address < tick.end]:
+        d.breakpoints.clear()
+        d.add_code(f"*{instruction:#x}")
+        d.resume()
+        frames = d.frames()
+        assert frames[-1].function.name == "main"
+        d.breakpoints.clear()
+        d.finish()
+        assert d.pc == frames[1].pc, hex(instruction)
+
+
 def test_a_change_is_told_with_both_values_and_only_where_they_differ(d):
     d.add_watch("values[1]")
     stop = d.resume()

@@ -121,6 +121,11 @@ def test_run_back_is_the_last_stop_of_any_breakpoint(image):
     for numbers, expected in reversed(stops[:-1]):
         stop = d.reverse_resume()
         assert (stop.numbers, state(d)) == (numbers, expected)
+        if numbers == [1]:
+            d.resume()
+            assert state(d) != expected, "from a breakpoint that was found backwards the run goes on"
+            d.reverse_resume()
+            assert state(d) == expected
     assert d.reverse_resume().reason == "start"
     assert d.run.now_ps == 0
     assert (d.resume().numbers, state(d)) == stops[0]
@@ -168,9 +173,13 @@ def test_what_the_outside_did_is_repeated_and_what_it_does_anew_drops_the_future
     assert d.timeline.received == received
     d.timeline.go(states[1][0])
     d.do(lambda r: r.write("iram", 0x40, b"\xa5"))
+    d.resume((states[1][0].at_ps + end_ps) // 2)
+    middle = d.timeline.position, state(d)
     d.resume(end_ps)
     assert state(d) != end
     assert d.run.read("iram", 0x40, 1) == b"\xa5", "the later poke is gone"
+    d.timeline.go(middle[0])
+    assert state(d) == middle[1], "so are the snapshots of the future that was"
 
 
 def test_history_stays_within_its_budget_and_reaches_to_the_start(image):
