@@ -145,20 +145,20 @@ TEST(fast, agrees_with_the_plain_engine_on_random_programs)
 constexpr uint64_t HOUR = 3600ull * (11'059'200 / 12);
 
 /// Timer 0 runs over every 65,536 cycles; what is loaded at 0x40 waits, the handler counts in 30h and 31h.
-void set_up_hour(bare_cpu& b, std::initializer_list<int> waiting)
+void set_up_hour(bare_cpu& b, const std::vector<uint8_t>& waiting)
 {
     b.load(0, {0x80, 0x5E});
     b.load(0x60, {0x75, sfr::TMOD, 0x21, 0x75, sfr::TH1, 0xFD, 0xD2, 0x8C, 0xD2, 0x8E});
     b.load(0x6A, {0x75, sfr::SCON, 0x40, 0x80, 0xD1});
     b.load(0x0B, {0x02, 0x00, 0x80});
-    b.load(0x40, waiting);
+    ASSERT_EQ(mcs51_load(b.cpu, 0x40, waiting.data(), waiting.size()), 0);
     b.load(0x80, {0x05, 0x30, 0xE5, 0x30, 0x70, 0x02, 0x05, 0x31, 0xD2, 0x08, 0x32}); // count; SETB 21h.0; RETI
 }
 
 TEST(fast, an_hour_of_waiting_costs_what_its_events_cost)
 {
     constexpr uint64_t OVERFLOWS = HOUR / 0x10000 - 1, PASSES_AN_EVENT = 8;
-    const std::vector<std::initializer_list<int>> waits = {
+    const std::vector<std::vector<uint8_t>> waits = {
         {0x75, sfr::IE, 0x82, 0x75, sfr::PCON, 0x01, 0x80, 0xFB},        // idle, again and again
         {0x75, sfr::IE, 0x82, 0x80, 0xFE},                               // SJMP $
         {0x75, sfr::IE, 0x82, 0x30, 0x08, 0xFD, 0xC2, 0x08, 0x80, 0xF9}, // JNB flag,$
