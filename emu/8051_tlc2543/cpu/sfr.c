@@ -173,11 +173,26 @@ static void write_watchdog(mcs51_t* self, uint8_t value, uint64_t now)
     self->wdt_armed = value == 0x1Eu;
 }
 
-/// Registers without a part in what happens by itself. \return whether address is one.
+/// Registers that leave timers and serial port as they are. \return whether this write is of that kind.
 static bool write_quiet(mcs51_t* self, unsigned address, uint8_t value, uint64_t now)
 {
     switch (address)
     {
+    case IE:
+    case IP:
+        self->mem[address] = value;
+        self->gate_at = now;
+        self->overflow_known = false;
+        mcs51_look_ahead(self, now);
+        return true;
+    case PCON:
+        if ((value ^ self->mem[PCON]) & (unsigned)~PCON_IDL)
+        {
+            return false;
+        }
+        self->mem[PCON] = value;
+        mcs51_look_at(self, now);
+        return true;
     case PSW:
         self->mem[PSW] = value;
         self->cy = value >> 7;
@@ -270,11 +285,6 @@ static void write_register(mcs51_t* self, unsigned address, uint8_t value)
     case T2MOD:
         mem[address] = value;
         mcs51_t2_mode_changed(self, now);
-        break;
-    case IE:
-    case IP:
-        mem[address] = value;
-        self->gate_at = now;
         break;
     default: // timers, PCON, AUXR: what counts has counted up to here with the old value
         mem[address] = value;

@@ -84,6 +84,11 @@ uint64_t mcs51_advance(mcs51_counter_t* c, uint64_t k, uint64_t* first)
         return 0;
     }
     k -= c->left;
+    if (k < c->period)
+    {
+        c->left = c->period - k;
+        return 1u;
+    }
     c->left = c->period - k % c->period;
     return 1u + k / c->period;
 }
