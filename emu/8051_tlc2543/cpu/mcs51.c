@@ -250,13 +250,13 @@ uint8_t mcs51_sfr(mcs51_t* self, uint8_t address)
     {
         return mcs51_psw(self);
     }
+    // cppcheck-suppress arrayIndexOutOfBoundsCond  // 256 is no uint8_t
     if (mcs51_read_limit[address] != INT32_MIN) // not plain memory at any time
     {
         const uint64_t limit = earlier(mcs51_cycle(self), self->until);
         mcs51_sync(self, limit);
         mcs51_timers_sync(self, limit);
     }
-    // cppcheck-suppress arrayIndexOutOfBoundsCond  // 256 is no uint8_t
     return self->mem[address];
 }
 
