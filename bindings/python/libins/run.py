@@ -164,6 +164,7 @@ def execute(scenario: Scenario, options: Options) -> Result:
     digest = hashlib.sha256()
     blocks: list[Array] = []
     published = 0
+    used = 0
     started = time.monotonic()
     stop_ps = round(stop_s * PS_PER_S)
     reached_samples = False
@@ -194,9 +195,9 @@ def execute(scenario: Scenario, options: Options) -> Result:
                 published += 1
         if len(states):
             blocks.append(states)
+            used += len(states)
         if options.progress is not None:
             options.progress(run.now_ps / PS_PER_S, states)
-        used = sum(len(block) for block in blocks)
         reached_samples = tables.stop_samples is not None and used >= tables.stop_samples
     wall_s = time.monotonic() - started
     states = np.concatenate(blocks) if blocks else np.empty((0, len(COLUMNS)))

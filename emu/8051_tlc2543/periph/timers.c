@@ -95,7 +95,11 @@ uint64_t mcs51_advance(mcs51_counter_t* c, uint64_t k, uint64_t* first)
 
 static void overflowed(mcs51_t* self, unsigned n, uint64_t at)
 {
-    mcs51_raise(self, n ? IRQ_T1 : IRQ_T0, TCON, (uint8_t)(0x20u << 2 * n), at);
+    const uint8_t flag = (uint8_t)(0x20u << 2 * n);
+    if (!(self->mem[TCON] & flag))
+    {
+        mcs51_raise(self, n ? IRQ_T1 : IRQ_T0, TCON, flag, at);
+    }
 }
 
 static inline void count(mcs51_t* self, unsigned n, uint64_t k, uint64_t from)
