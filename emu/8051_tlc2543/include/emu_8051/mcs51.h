@@ -71,11 +71,11 @@ EMU_API uint8_t mcs51_iram(const mcs51_t* self, uint8_t address);           ///<
 EMU_API void mcs51_set_iram(mcs51_t* self, uint8_t address, uint8_t value); ///< as mcs51_iram
 EMU_API uint8_t mcs51_sfr(mcs51_t* self,
                           uint8_t address); ///< 80..FF; ports: the latch; TL, TH: as of until_cycle of the run
-EMU_API void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value); ///< as mcs51_sfr
-EMU_API uint8_t mcs51_code(const mcs51_t* self, uint16_t address);         ///< A5h where there is none
-EMU_API void mcs51_set_code(mcs51_t* self, uint16_t address, uint8_t value);
-EMU_API uint8_t mcs51_xdata(const mcs51_t* self, uint16_t address); ///< FFh where there is none
-EMU_API void mcs51_set_xdata(mcs51_t* self, uint16_t address, uint8_t value);
+EMU_API void mcs51_set_sfr(mcs51_t* self, uint8_t address, uint8_t value);    ///< as mcs51_sfr
+EMU_API uint8_t mcs51_code(const mcs51_t* self, uint16_t address);            ///< A5h where there is none
+EMU_API void mcs51_set_code(mcs51_t* self, uint16_t address, uint8_t value);  ///< nothing where there is none
+EMU_API uint8_t mcs51_xdata(const mcs51_t* self, uint16_t address);           ///< FFh where there is none
+EMU_API void mcs51_set_xdata(mcs51_t* self, uint16_t address, uint8_t value); ///< nothing where there is none
 
 typedef enum mcs51_space_t
 {

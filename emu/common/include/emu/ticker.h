@@ -35,6 +35,7 @@ EMU_API void emu_ticker_rate(emu_ticker_t* self, uint64_t tick, int32_t ppb);
 EMU_API emu_time_t emu_ticker_time(emu_ticker_t* self, uint64_t tick);
 /// First tick at or after instant t, which is the present or later; UINT64_MAX after EMU_TIME_LOADED_MAX.
 EMU_API uint64_t emu_ticker_tick(const emu_ticker_t* self, emu_time_t t);
+/// Save or load, see emu/state.h. The clock's frequency is configuration.
 EMU_API void emu_ticker_state(emu_ticker_t* self, emu_state_t* io);
 
 #ifdef __cplusplus
