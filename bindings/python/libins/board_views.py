@@ -6,21 +6,13 @@ from collections.abc import Callable, Iterator, MutableMapping
 from typing import Any
 
 from libins import cdb_types
-from libins.cdb import Cdb, Space, Symbol
+from libins.cdb import Cdb, Symbol
 from libins.disasm import SFR
 from libins.errors import UsageError
+from libins.places import SPACES
 
 Do = Callable[..., Any]
 """Carries out a change by name and arguments, and notes it, so that a run can be repeated."""
-SPACES = {
-    Space.DATA: "iram",
-    Space.IDATA: "iram",
-    Space.SFR: "sfr",
-    Space.XDATA: "xdata",
-    Space.PDATA: "xdata",
-    Space.CODE: "code",
-    Space.CONSTANT: "code",
-}
 
 
 class Memory:
