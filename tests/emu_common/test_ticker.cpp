@@ -86,6 +86,34 @@ TEST(ticker, a_change_of_rate_begins_at_its_tick)
     EXPECT_EQ(emu_ticker_tick(&ticker, EMU_TIME_MAX), UINT64_MAX) << "never";
 }
 
+TEST(ticker, another_clock_begins_at_its_tick_as_far_off_as_before)
+{
+    const emu_clock_t slow{30000000, 2}, fast{150000000, 1};
+    emu_ticker_t ticker, as_if;
+    emu_ticker_init(&ticker, &slow);
+    emu_ticker_rate(&ticker, 0, 50000);
+    const emu_time_t at = emu_ticker_time(&ticker, 65536);
+    emu_ticker_clock(&ticker, 65536, &fast);
+    emu_ticker_init(&as_if, &fast);
+    emu_ticker_rate(&as_if, 0, 50000);
+    for (const uint64_t ticks : {0ULL, 1ULL, 2ULL, 7808ULL, 150000000ULL})
+    {
+        EXPECT_EQ(emu_ticker_ahead(&ticker, 65536 + ticks), at + emu_ticker_ahead(&as_if, ticks)) << ticks;
+    }
+}
+
+TEST(ticker, looking_far_ahead_does_not_move_the_present)
+{
+    const emu_clock_t clock{29999999, 1};
+    emu_ticker_t ticker;
+    emu_ticker_init(&ticker, &clock);
+    emu_ticker_rate(&ticker, 0, 12347);
+    const emu_time_t second = emu_ticker_ahead(&ticker, 30000369);
+    EXPECT_NEAR(static_cast<double>(emu_ticker_ahead(&ticker, 30000369000)), 1e3 * static_cast<double>(second), 1e3);
+    EXPECT_EQ(emu_ticker_ahead(&ticker, 30000369), second);
+    EXPECT_EQ(emu_ticker_time(&ticker, 30000369), second);
+}
+
 TEST(ticker, comes_back_from_a_snapshot)
 {
     const emu_clock_t clock{11059200, 12};

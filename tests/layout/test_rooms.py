@@ -16,11 +16,12 @@ ROOMS: dict[str, tuple[str, str, set[str], set[str]]] = {
     "dds": ("libins/host/dds", "ins_dds/", {"ins_dds", "ins_dds_idl"}, {"core", "navd"}),
     "emu_common": ("emu/common", "emu/", {"emu_common"}, set()),
     "emu_8051": ("emu/8051_tlc2543", "emu_8051/", {"emu_8051"}, {"emu_common"}),
+    "emu_f2812": ("emu/f2812_sci", "emu_f2812/", {"emu_f2812", "emu_f2812_parts"}, {"emu_common"}),
     "python": (
         "bindings/python",
         "libins_py/",
         {"_run", "_dds", "ins_python_core", "ins_python_coref"},
-        {"core", "truth", "navd", "dds", "emu_common", "emu_8051"},
+        {"core", "truth", "navd", "dds", "emu_common", "emu_8051", "emu_f2812"},
     ),
     "cpp": ("bindings/cpp", "ins/ins.hpp", {"ins_cpp", "ins_cppf"}, {"core"}),
 }

@@ -128,12 +128,24 @@ uint64_t emu_ticker_tick(const emu_ticker_t* self, emu_time_t t)
     return tick;
 }
 
+emu_time_t emu_ticker_ahead(const emu_ticker_t* self, uint64_t tick)
+{
+    return instant(self, tick);
+}
+
 void emu_ticker_rate(emu_ticker_t* self, uint64_t tick, int32_t ppb)
 {
     self->at = instant(self, tick);
     self->tick = tick;
     self->rest = 0;
     set_rate(self, ppb);
+}
+
+void emu_ticker_clock(emu_ticker_t* self, uint64_t tick, const emu_clock_t* clock)
+{
+    emu_ticker_rate(self, tick, self->ppb);
+    self->clock = *clock;
+    set_rate(self, self->ppb);
 }
 
 void emu_ticker_state(emu_ticker_t* self, emu_state_t* io)

@@ -1,0 +1,43 @@
+/// What an F2812 is made with, by name.
+/// SPDX-License-Identifier: MIT
+#include "emu_f2812/config.h"
+#include <stddef.h>
+#include <string.h>
+
+#define VALUES 4 ///< at most
+
+/// Names of the values, beginning with that of 0.
+static const struct
+{
+    const char* name;
+    size_t offset;
+    const char* values[VALUES];
+} switches[] = {
+    {"clock_off", offsetof(f2812_switches_t, clock_off), {"drop", "take"}},
+};
+
+const char* f2812_switch_set(f2812_switches_t* self, const char* name, const char* value)
+{
+    for (size_t i = 0; i < sizeof switches / sizeof switches[0]; i++)
+    {
+        if (strcmp(switches[i].name, name) != 0)
+        {
+            continue;
+        }
+        for (unsigned v = 0; v < VALUES && switches[i].values[v] != NULL; v++)
+        {
+            if (strcmp(switches[i].values[v], value) == 0)
+            {
+                ((uint8_t*)self)[switches[i].offset] = (uint8_t)v;
+                return NULL;
+            }
+        }
+        return "this switch has no such value (its values are in emu_f2812/config.h and docs/f2812.md)";
+    }
+    return "there is no such switch (they are in emu_f2812/config.h and docs/f2812.md)";
+}
+
+void f2812_default_config(f2812_config_t* config)
+{
+    *config = (f2812_config_t){.oscclk_hz = F2812_OSCCLK_HZ};
+}
