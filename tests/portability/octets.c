@@ -5,6 +5,7 @@
 /// SPDX-License-Identifier: MIT
 #include "ins/gimu.h"
 #include "ins/link.h"
+#include "ins/nav_block.h"
 #include "ins/nmea.h"
 #include <stdio.h>
 
@@ -12,6 +13,7 @@
 #define SESSION_TICKS 800 ///< octet times of one line
 #define PACKETS       400
 #define SENTENCES     600
+#define BLOCKS        400
 #define LONGEST       120 ///< octets of a sentence
 
 #ifdef uint_least8_t
@@ -238,6 +240,32 @@ static void nmea(void)
            (unsigned long)n.cut, (unsigned long)n.other);
 }
 
+/// Blocks of noise with a right version, and what was taken put back.
+static void nav_block(void)
+{
+    for (unsigned k = 0; k < BLOCKS; k++)
+    {
+        ins_octet_t block[INS_NAV_BLOCK_LEN];
+        ins_nav_block_t nav;
+        for (unsigned i = 0; i < INS_NAV_BLOCK_LEN; i++)
+        {
+            block[i] = put(i == 0 ? 4 + pick(4) : i == 2 ? pick(8) : pick(256));
+        }
+        const ins_status_t taken = ins_nav_block_get(block, &nav);
+        printf("%d\n", taken);
+        if (taken == INS_OK && ins_nav_block_put(&nav, block) == INS_OK)
+        {
+            printf("%lu %u %u %u %ld %ld", (unsigned long)nav.time_ms, (unsigned)nav.status, (unsigned)nav.sats,
+                   (unsigned)nav.fix_age, (long)nav.en_cm[0], (long)nav.en_cm[1]);
+            for (unsigned i = 0; i < INS_NAV_BLOCK_LEN; i++)
+            {
+                printf(" %02X", (unsigned)block[i]);
+            }
+            printf("\n");
+        }
+    }
+}
+
 int main(int argc, char** argv)
 {
     (void)argv;
@@ -251,5 +279,6 @@ int main(int argc, char** argv)
     gimu(0);
     gimu(1);
     nmea();
+    nav_block();
     return 0;
 }

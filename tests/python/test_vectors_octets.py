@@ -1,6 +1,7 @@
 """handshake and gimu, through Python; a line of the extended frame; NMEA."""
 
 import numpy as np
+import pytest
 from reference import both, expect, load, tolerance
 
 TOL_SCALING = (1e-15, 3e-7)
@@ -136,3 +137,24 @@ def test_nmea(ins):
     assert (fix.time_ms, fix.altitude_mm, fix.hdop_milli) == (34070000, 61700, 1030)
     assert nmea.rx(b"$" + body + b"*00\r\n") == []
     assert (nmea.taken, nmea.bad_checksum) == (1, 1)
+
+
+@both
+def test_navigation_block(ins):
+    nav = ins.NavBlock()
+    nav.time_ms, nav.sats, nav.fix_age = 123456789, 8, 4
+    nav.status = ins.NAV_BLOCK_ALIGNED | ins.NAV_BLOCK_POSITION
+    nav.en_cm = np.array([24712345, 276543210], dtype=np.int32)
+    nav.v_en = np.array([-1.5, 12.25], dtype=ins.real)
+    nav.q_nb = np.array([0.5, -0.5, 0.5, -0.5], dtype=ins.real)
+    octets = nav.put()
+    assert octets[:12].hex() == "04080009075bcd1501791499"
+    back = ins.NavBlock.get(octets)
+    assert (back.time_ms, back.status, back.sats, back.fix_age) == (123456789, nav.status, 8, 4)
+    assert back.en_cm.tolist() == [24712345, 276543210]
+    assert back.v_en.tolist() == [-1.5, 12.25]
+    assert back.q_nb.tolist() == [0.5, -0.5, 0.5, -0.5]
+    nav.v_en = np.array([0.0, 9000.0], dtype=ins.real)
+    for refused in (nav.put, lambda: ins.NavBlock.get(octets[:-1]), lambda: ins.NavBlock.get(b"\x10" + octets[1:])):
+        with pytest.raises(ins.RangeError, match="NavBlock"):
+            refused()

@@ -192,6 +192,7 @@ void bind_kalman(nb::module_& m);
 void bind_vehicle(nb::module_& m);
 void bind_serial(nb::module_& m);
 void bind_packets(nb::module_& m);
+void bind_nav_block(nb::module_& m);
 
 template <typename T> constexpr auto element_name()
 {

@@ -125,4 +125,5 @@ NB_MODULE(LIBINS_MODULE, m)
     bind_vehicle(m);
     bind_serial(m);
     bind_packets(m);
+    bind_nav_block(m);
 }

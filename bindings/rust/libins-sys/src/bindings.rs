@@ -23,6 +23,9 @@ pub const INS_LINK_READY: u32 = 68;
 pub const INS_LINK_PROBE_EVERY: u32 = 16;
 pub const INS_LINK_BLOCK_MAX: u32 = 15;
 pub const INS_LINK_CRC_START: u32 = 65535;
+pub const INS_NAV_BLOCK_LEN: u32 = 32;
+pub const INS_NAV_BLOCK_VERSION: u32 = 1;
+pub const INS_NAV_BLOCK_OLD: u32 = 255;
 pub const INS_NMEA_BODY_MAX: u32 = 100;
 pub const INS_ROTVEC_MAX: u32 = 1000;
 pub const INS_RATES_ORDER_MAX: u32 = 5;
@@ -936,23 +939,62 @@ extern "C" {
     #[doc = "\\return INS_E_RANGE, and self unchanged, if one is not, or not a number."]
     pub fn ins_markov_init(self_: *mut ins_markov_t, dt: ins_real, tau: ins_real, sigma: ins_real) -> ins_status_t;
 }
-pub const INS_NMEA_NOTHING: _bindgen_ty_8 = 0;
-pub const INS_NMEA_GGA: _bindgen_ty_8 = 1;
-pub const INS_NMEA_RMC: _bindgen_ty_8 = 2;
-pub const INS_NMEA_VTG: _bindgen_ty_8 = 3;
-#[doc = "What an octet led to."]
+pub const INS_NAV_BLOCK_ALIGNED: _bindgen_ty_8 = 1;
+pub const INS_NAV_BLOCK_INTEGER: _bindgen_ty_8 = 2;
+pub const INS_NAV_BLOCK_FRACTION: _bindgen_ty_8 = 4;
+pub const INS_NAV_BLOCK_POSITION: _bindgen_ty_8 = 8;
+pub const INS_NAV_BLOCK_FILTER: _bindgen_ty_8 = 16;
+pub const INS_NAV_BLOCK_ZONE_119: _bindgen_ty_8 = 32;
+pub const INS_NAV_BLOCK_GATED: _bindgen_ty_8 = 64;
+pub const INS_NAV_BLOCK_LINE_ERROR: _bindgen_ty_8 = 128;
+pub const INS_NAV_BLOCK_GAP: _bindgen_ty_8 = 256;
+pub const INS_NAV_BLOCK_WATCHDOG: _bindgen_ty_8 = 512;
+pub const INS_NAV_BLOCK_CLIPPED: _bindgen_ty_8 = 1024;
+pub const INS_NAV_BLOCK_STATUS_ALL: _bindgen_ty_8 = 2047;
 pub type _bindgen_ty_8 = ::core::ffi::c_uint;
-pub const INS_NMEA_TIME: _bindgen_ty_9 = 1;
-pub const INS_NMEA_POSITION: _bindgen_ty_9 = 2;
-pub const INS_NMEA_SATS: _bindgen_ty_9 = 4;
-pub const INS_NMEA_HDOP: _bindgen_ty_9 = 8;
-pub const INS_NMEA_ALTITUDE: _bindgen_ty_9 = 16;
-pub const INS_NMEA_GEOID: _bindgen_ty_9 = 32;
-pub const INS_NMEA_SPEED: _bindgen_ty_9 = 64;
-pub const INS_NMEA_COURSE: _bindgen_ty_9 = 128;
-pub const INS_NMEA_DATE: _bindgen_ty_9 = 256;
-#[doc = "Bits of ins_nmea_fix_t.has."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_nav_block_t {
+    pub time_ms: u32,
+    pub status: u16,
+    pub sats: uint_least8_t,
+    #[doc = "[0.1 s]"]
+    pub fix_age: uint_least8_t,
+    #[doc = "easting, northing"]
+    pub en_cm: [i32; 2usize],
+    #[doc = "velocity east, north [m/s]"]
+    pub v_en: [ins_real; 2usize],
+    #[doc = "scalar first, v_n = q v_b q*, n is NED"]
+    pub q_nb: [ins_real; 4usize],
+}
+extern "C" {
+    #[doc = "\\param[out] block  [INS_NAV_BLOCK_LEN]."]
+    #[doc = "\\return INS_OK; INS_E_RANGE for NaN, a velocity above INS_NAV_BLOCK_V_MAX, a quaternion whose norm is not within 1e-3 of 1 (it is"]
+    #[doc = "normalised), or status bits beyond INS_NAV_BLOCK_STATUS_ALL; block is then unchanged."]
+    pub fn ins_nav_block_put(nav: *const ins_nav_block_t, block: *mut ins_octet_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\param[in] block  [INS_NAV_BLOCK_LEN], without a sequence number (as ins_hs_host_t has it)."]
+    #[doc = "\\return INS_OK; INS_E_RANGE for another version, bits that are always 0, or components that are no quaternion's; nav is then unchanged."]
+    pub fn ins_nav_block_get(block: *const ins_octet_t, nav: *mut ins_nav_block_t) -> ins_status_t;
+}
+pub const INS_NMEA_NOTHING: _bindgen_ty_9 = 0;
+pub const INS_NMEA_GGA: _bindgen_ty_9 = 1;
+pub const INS_NMEA_RMC: _bindgen_ty_9 = 2;
+pub const INS_NMEA_VTG: _bindgen_ty_9 = 3;
+#[doc = "What an octet led to."]
 pub type _bindgen_ty_9 = ::core::ffi::c_uint;
+pub const INS_NMEA_TIME: _bindgen_ty_10 = 1;
+pub const INS_NMEA_POSITION: _bindgen_ty_10 = 2;
+pub const INS_NMEA_SATS: _bindgen_ty_10 = 4;
+pub const INS_NMEA_HDOP: _bindgen_ty_10 = 8;
+pub const INS_NMEA_ALTITUDE: _bindgen_ty_10 = 16;
+pub const INS_NMEA_GEOID: _bindgen_ty_10 = 32;
+pub const INS_NMEA_SPEED: _bindgen_ty_10 = 64;
+pub const INS_NMEA_COURSE: _bindgen_ty_10 = 128;
+pub const INS_NMEA_DATE: _bindgen_ty_10 = 256;
+#[doc = "Bits of ins_nmea_fix_t.has."]
+pub type _bindgen_ty_10 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_nmea_fix_t {
@@ -1024,10 +1066,10 @@ extern "C" {
     #[doc = "An octet came. \\return INS_NMEA_GGA, RMC or VTG: self->fix has it; else INS_NMEA_NOTHING."]
     pub fn ins_nmea_rx(self_: *mut ins_nmea_t, octet: ins_octet_t) -> ::core::ffi::c_int;
 }
-pub const INS_PVA_POSITION: _bindgen_ty_10 = 0;
-pub const INS_PVA_VELOCITY: _bindgen_ty_10 = 1;
-pub const INS_PVA_ACCELERATION: _bindgen_ty_10 = 2;
-pub type _bindgen_ty_10 = ::core::ffi::c_uint;
+pub const INS_PVA_POSITION: _bindgen_ty_11 = 0;
+pub const INS_PVA_VELOCITY: _bindgen_ty_11 = 1;
+pub const INS_PVA_ACCELERATION: _bindgen_ty_11 = 2;
+pub type _bindgen_ty_11 = ::core::ffi::c_uint;
 #[doc = "Owned by the caller; readable."]
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
@@ -1529,13 +1571,13 @@ extern "C" {
     #[doc = "As ins_tm_inverse(), by equations 5.8 and 5.9."]
     pub fn ins_tm_thesis_inverse(self_: *const ins_tm_t, en: *const ins_real, lat_lon: *mut ins_real) -> ins_status_t;
 }
-pub const INS_UNICYCLE_EAST: _bindgen_ty_11 = 0;
-pub const INS_UNICYCLE_NORTH: _bindgen_ty_11 = 1;
-pub const INS_UNICYCLE_HEADING: _bindgen_ty_11 = 2;
-pub const INS_UNICYCLE_SPEED: _bindgen_ty_11 = 3;
-pub const INS_UNICYCLE_BIAS: _bindgen_ty_11 = 4;
-pub const INS_UNICYCLE_SCALE: _bindgen_ty_11 = 5;
-pub type _bindgen_ty_11 = ::core::ffi::c_uint;
+pub const INS_UNICYCLE_EAST: _bindgen_ty_12 = 0;
+pub const INS_UNICYCLE_NORTH: _bindgen_ty_12 = 1;
+pub const INS_UNICYCLE_HEADING: _bindgen_ty_12 = 2;
+pub const INS_UNICYCLE_SPEED: _bindgen_ty_12 = 3;
+pub const INS_UNICYCLE_BIAS: _bindgen_ty_12 = 4;
+pub const INS_UNICYCLE_SCALE: _bindgen_ty_12 = 5;
+pub type _bindgen_ty_12 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_unicycle_config_t {

@@ -38,6 +38,7 @@ pub const INS_MARKOV_GIMBAL_SIGMA: ins_real = 0.01 * INS_MARKOV_DEG_PER_HOUR;
 pub const INS_MARKOV_GIMBAL_TAU_S: ins_real = 7200.0;
 pub const INS_MARKOV_STRAPDOWN_SIGMA: ins_real = INS_MARKOV_DEG_PER_HOUR;
 pub const INS_MARKOV_STRAPDOWN_TAU_S: ins_real = 300.0;
+pub const INS_NAV_BLOCK_V_MAX: ins_real = 8388.0;
 pub const INS_STRAPDOWN_COS_MIN: ins_real = 1e-3;
 pub const INS_STRAPDOWN_PERIOD_MAX: ins_real = 1.0;
 pub const INS_STRAPDOWN_SPEED_MAX: ins_real = 1e4;

@@ -22,6 +22,7 @@
 #include "ins/kalman.h"
 #include "ins/link.h"
 #include "ins/markov.h"
+#include "ins/nav_block.h"
 #include "ins/nmea.h"
 #include "ins/pva.h"
 #include "ins/q31.h"
