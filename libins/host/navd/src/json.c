@@ -1,7 +1,8 @@
 /// \file   json.c
-/// \brief  A navigation state as one line of JSON. Reals as %.17g: the same bits when read back.
+/// \brief  A navigation state, or a board's solution, as one line of JSON. Reals as %.17g: the same bits when read back.
 /// SPDX-License-Identifier: MIT
 #include "ins_nav/nav.h"
+#include "ins_nav/nav_input.h"
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -55,19 +56,25 @@ static void put_reals(writer_t* self, const char* name, const double* value, int
     put(self, "]");
 }
 
-static void put_status(writer_t* self, uint32_t status)
+static const char* put_bit(writer_t* self, uint32_t status, uint32_t bit, const char* comma, const char* text)
 {
-    const char* comma = "";
-    put(self, ",\"status\":[");
-#define PUT(name, value, text)                                                                                         \
-    if ((status & (uint32_t)(value)) != 0)                                                                             \
-    {                                                                                                                  \
-        put(self, "%s\"%s\"", comma, text);                                                                            \
-        comma = ",";                                                                                                   \
+    if ((status & bit) == 0)
+    {
+        return comma;
     }
-    INS_NAV_STATUS_LIST(PUT)
-#undef PUT
-    put(self, "]");
+    put(self, "%s\"%s\"", comma, text);
+    return ",";
+}
+#define PUT(name, value, text) comma = put_bit(&w, status, (uint32_t)(value), comma, text);
+
+static size_t put_link(writer_t* self, const ins_nav_counts_t* c, const char* buffer)
+{
+    put(self,
+        ",\"link\":{\"accepted\":%" PRIu64 ",\"lost\":%" PRIu64 ",\"invalid\":%" PRIu64 ",\"duplicates\":%" PRIu64,
+        c->accepted, c->lost, c->invalid, c->duplicates);
+    put(self, ",\"corrupt\":%" PRIu64 ",\"timeouts\":%" PRIu64 ",\"stray\":%" PRIu64 "}}\n", c->corrupt, c->timeouts,
+        c->stray);
+    return self->room > 0 ? (size_t)(self->at - buffer) : 0u;
 }
 
 size_t ins_nav_state_json(const ins_nav_state_t* state, char* buffer, size_t size)
@@ -81,12 +88,35 @@ size_t ins_nav_state_json(const ins_nav_state_t* state, char* buffer, size_t siz
     put_reals(&w, "w_ib_b", state->w_ib_b, 3);
     put_reals(&w, "dtheta_b", state->dtheta_b, 3);
     put(&w, ",\"bridged\":%" PRIu32, state->bridged);
-    put_status(&w, state->status);
+    const uint32_t status = state->status;
+    const char* comma = "";
+    put(&w, ",\"status\":[");
+    INS_NAV_STATUS_LIST(PUT)
+    put(&w, "]");
     put(&w, ",\"used\":%" PRIu64 ",\"missed\":%" PRIu64, state->used, state->missed);
-    const ins_nav_counts_t* c = &state->counts;
-    put(&w, ",\"link\":{\"accepted\":%" PRIu64 ",\"lost\":%" PRIu64 ",\"invalid\":%" PRIu64 ",\"duplicates\":%" PRIu64,
-        c->accepted, c->lost, c->invalid, c->duplicates);
-    put(&w, ",\"corrupt\":%" PRIu64 ",\"timeouts\":%" PRIu64 ",\"stray\":%" PRIu64 "}}\n", c->corrupt, c->timeouts,
-        c->stray);
-    return w.room > 0 ? (size_t)(w.at - buffer) : 0u;
+    return put_link(&w, &state->counts, buffer);
+}
+
+size_t ins_nav_solution_json(const ins_nav_solution_t* solution, char* buffer, size_t size)
+{
+    writer_t w = {buffer, size};
+    put(&w, "{\"index\":%" PRIu64 ",\"t_s\":", solution->index);
+    put_real(&w, solution->t_s);
+    put(&w, ",\"seq\":%" PRIu32, solution->seq);
+    put_reals(&w, "q_nb", solution->q_nb, 4);
+    put_reals(&w, "euler_rad", solution->euler_rad, 3);
+    put(&w, ",\"zone\":%" PRIu32, solution->zone);
+    put_reals(&w, "en_m", solution->en_m, 2);
+    put_reals(&w, "lat_lon_rad", solution->lat_lon_rad, 2);
+    put_reals(&w, "v_en_m_s", solution->v_en_m_s, 2);
+    put(&w, ",\"sats\":%" PRIu32 ",\"fix_age_s\":", solution->sats);
+    put_real(&w, solution->fix_age_s);
+    put(&w, ",\"lost\":%" PRIu32, solution->lost);
+    const uint32_t status = solution->status;
+    const char* comma = "";
+    put(&w, ",\"status\":[");
+    INS_NAV_BLOCK_STATUS_LIST(PUT)
+    PUT(0, INS_NAV_RESTARTED, "restarted")
+    put(&w, "]");
+    return put_link(&w, &solution->counts, buffer);
 }
