@@ -55,6 +55,15 @@ TEST_F(sched, fires_in_order_and_equal_times_in_the_order_they_were_set)
     EXPECT_EQ(emu_sched_next(&log.sched), EMU_TIME_MAX);
 }
 
+TEST_F(sched, what_comes_from_outside_fires_before_all_else_of_its_instant)
+{
+    emu_sched_at(&log.sched, &a.e, 20);
+    emu_sched_first(&log.sched, &b.e, 20);
+    emu_sched_first(&log.sched, &c.e, 20);
+    emu_sched_advance(&log.sched, 20);
+    EXPECT_EQ(log.fired, (fired_t{{2, 20}, {3, 20}, {1, 20}}));
+}
+
 TEST_F(sched, moves_and_cancels)
 {
     emu_sched_at(&log.sched, &a.e, 10);

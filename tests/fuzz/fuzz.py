@@ -13,7 +13,8 @@ import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-CORE = HERE.parents[1] / "libins" / "core"
+ROOT = HERE.parents[1]
+CORE = ROOT / "libins" / "core"
 RUNS = 100_000
 RUNS_BENCH = 20_000_000  # with INS_BENCH set
 SEED = 1
@@ -23,6 +24,7 @@ SOURCES = {
     "nmea": ["nmea"],
     "attitude": ["attitude", "attitude_any", "hist2", "sculling", "sculling_any", "coning", "quat", "rotvec", "q31"],
 }
+EMULATOR = {"wirelink": ["common/src/state", "f2812_sci/wirelink/wirelink"]}
 
 
 def main() -> None:
@@ -33,7 +35,10 @@ def main() -> None:
     program = folder / f"fuzz_{target}"
     sanitize = ["-fsanitize=fuzzer,address,undefined,bounds", "-fno-sanitize-recover=all"]
     options = ["-std=c11", "-g", "-O1", "-Wall", "-Wextra", "-Werror", f"-I{CORE}/include", f"-I{HERE.parent}/proof"]
-    files = [str(HERE / f"fuzz_{target}.c"), *(str(CORE / "src" / f"{name}.c") for name in SOURCES[target]), "-lm"]
+    options += [f"-I{ROOT}/emu/common/include", f"-I{ROOT}/emu/f2812_sci/include"]
+    sources = [CORE / "src" / f"{name}.c" for name in SOURCES.get(target, [])]
+    sources += [ROOT / "emu" / f"{name}.c" for name in EMULATOR.get(target, [])]
+    files = [str(HERE / f"fuzz_{target}.c"), *map(str, sources), "-lm"]
     subprocess.run([clang, *options, *sanitize, *files, "-o", str(program)], check=True)
     runs = RUNS_BENCH if os.environ.get("INS_BENCH") else RUNS
     corpus = HERE / "corpus" / target

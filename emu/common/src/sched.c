@@ -5,7 +5,7 @@
 
 void emu_sched_init(emu_sched_t* self)
 {
-    *self = (emu_sched_t){0};
+    *self = (emu_sched_t){.order = 1}; // 0 is that of emu_sched_first()
 }
 
 void emu_sched_cancel(emu_sched_t* self, emu_event_t* event)
@@ -32,7 +32,7 @@ static void insert(emu_sched_t* self, emu_event_t* event)
 {
     event->pending = true;
     emu_event_t** link = &self->head;
-    while (*link != NULL && before(*link, event))
+    while (*link != NULL && !before(event, *link))
     {
         link = &(*link)->next;
     }
@@ -40,16 +40,26 @@ static void insert(emu_sched_t* self, emu_event_t* event)
     *link = event;
 }
 
-void emu_sched_at(emu_sched_t* self, emu_event_t* event, emu_time_t at)
+static void set(emu_sched_t* self, emu_event_t* event, emu_time_t at, uint64_t order)
 {
     emu_sched_cancel(self, event);
     event->at = at < self->now ? self->now : at;
-    event->order = self->order++;
+    event->order = order;
     insert(self, event);
     if (self->head == event && self->earlier != NULL)
     {
         self->earlier(self->earlier_ctx, event->at);
     }
+}
+
+void emu_sched_at(emu_sched_t* self, emu_event_t* event, emu_time_t at)
+{
+    set(self, event, at, self->order++);
+}
+
+void emu_sched_first(emu_sched_t* self, emu_event_t* event, emu_time_t at)
+{
+    set(self, event, at, 0);
 }
 
 emu_time_t emu_sched_next(const emu_sched_t* self)

@@ -32,6 +32,8 @@ typedef struct emu_sched_t
 EMU_API void emu_sched_init(emu_sched_t* self);
 /// Set or move an event. `at` before self->now means now.
 EMU_API void emu_sched_at(emu_sched_t* self, emu_event_t* event, emu_time_t at);
+/// As emu_sched_at(), but it fires before all else of that instant: what comes from outside acts the same whenever it was announced.
+EMU_API void emu_sched_first(emu_sched_t* self, emu_event_t* event, emu_time_t at);
 /// Take an event out; nothing happens when it is not pending.
 EMU_API void emu_sched_cancel(emu_sched_t* self, emu_event_t* event);
 /// Instant of the earliest event, or EMU_TIME_MAX.
