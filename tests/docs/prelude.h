@@ -7,6 +7,7 @@
 #include "emu_8051/acq_board.h"
 #include "ins_dds/dds.h"
 #include "ins_nav/nav.h"
+#include "ins_truth/gps.h"
 #include "ins_truth/gyro.h"
 #include "ins_truth/motion.h"
 extern ins_nav_t nav;
@@ -17,6 +18,9 @@ extern uint64_t now_ms;
 extern int reply;
 extern ins_motion_t* motion;
 extern const ins_motion_sines_t sines;
+extern const ins_track_t* track;
+extern ins_track_state_t moment;
+extern ins_gps_fix_t newest;
 extern double rate_per_lsb, null_code, volts;
 extern int64_t t_ps;
 extern double t;

@@ -99,3 +99,22 @@ TEST(elementary, log_of_normal_numbers)
         EXPECT_TRUE(std::isnan(ins_truth_log(x))) << x;
     }
 }
+
+TEST(elementary, exp_from_end_to_end)
+{
+    Random random = {5};
+    long double worst = 0.0L;
+    for (int k = 0; k < 200000; k++)
+    {
+        const double x = k % 2 == 0 ? random(-708.0, 709.0) : random(-1.0, 1.0);
+        const long double want = std::exp(static_cast<long double>(x));
+        worst = std::max(worst, std::fabs(static_cast<long double>(ins_truth_exp(x)) - want) / want);
+    }
+    RecordProperty("worst", std::to_string(static_cast<double>(worst) * 1e16) + "e-16");
+    EXPECT_LE(worst, 1e-15L);
+    EXPECT_EQ(ins_truth_exp(0.0), 1.0);
+    EXPECT_EQ(ins_truth_exp(-709.0), 0.0);
+    EXPECT_EQ(ins_truth_exp(-infinity), 0.0);
+    EXPECT_EQ(ins_truth_exp(709.5), infinity);
+    EXPECT_TRUE(std::isnan(ins_truth_exp(not_a_number)));
+}

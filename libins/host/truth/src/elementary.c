@@ -106,3 +106,22 @@ double ins_truth_log(double x)
     }
     return exponent * ln2_1 + (exponent * ln2_2 + 2.0 * z * p);
 }
+
+double ins_truth_exp(double x)
+{
+    if (!(x >= -708.0 && x <= 709.0))
+    {
+        return x < -708.0 ? 0.0 : (x > 709.0 ? (double)INFINITY : (double)NAN);
+    }
+    const double n = floor(x / (ln2_1 + ln2_2) + 0.5);
+    const double r = (x - n * ln2_1) - n * ln2_2;
+    double p = 1.0;
+    for (int k = 14; k >= 1; k--) // the next term is below 1e-19
+    {
+        p = 1.0 + p * r / (double)k;
+    }
+    const uint64_t bits = (uint64_t)(1023 + (int)n) << 52;
+    double scale; // 2^n
+    memcpy(&scale, &bits, sizeof scale);
+    return p * scale;
+}

@@ -3,6 +3,7 @@
 /// SPDX-License-Identifier: MIT
 #include "ins_truth/gyro.h"
 #include "ins_truth/elementary.h"
+#include "noise_internal.h"
 #include "why_internal.h"
 #include <math.h>
 
@@ -123,38 +124,11 @@ static double low_pass(const ins_gyro_t* self, const ins_gyro_channel_t* c, doub
     return sum;
 }
 
-/// SplitMix64's mixing function (Steele, Lea and Flood 2014).
-static uint64_t mix(uint64_t z)
-{
-    z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-    return z ^ (z >> 31);
-}
-
-/// (0, 1]
-static double unit(uint64_t z)
-{
-    return ((double)(z >> 11) + 0.5) * 0x1p-53;
-}
-
-/// Standard normal value of one cell of the lattice (Box and Muller 1958).
-static double normal(uint64_t seed, unsigned channel, int64_t cell)
-{
-    const uint64_t golden = UINT64_C(0x9e3779b97f4a7c15);
-    const uint64_t stream = mix(seed + golden * (channel + 1u));
-    const uint64_t a = mix(stream + golden * (uint64_t)cell);
-    const uint64_t b = mix(a + golden);
-    double s;
-    double c;
-    ins_truth_sincos(2.0 * INS_TRUTH_PI * unit(b), &s, &c);
-    return sqrt(-2.0 * ins_truth_log(unit(a))) * c;
-}
-
 static double noise(const ins_gyro_t* self, unsigned channel, int64_t t_ps)
 {
     const int64_t step = self->noise_step_ps;
     const int64_t cell = t_ps / step - (t_ps % step < 0 ? 1 : 0);
-    return self->noise_sigma[channel] * normal(self->config.seed, channel, cell);
+    return self->noise_sigma[channel] * ins_noise_normal(self->config.seed, channel, cell);
 }
 
 double ins_gyro_rate(const ins_gyro_t* self, unsigned channel, int64_t t_ps)

@@ -3,39 +3,20 @@
 /// SPDX-License-Identifier: MIT
 #include "ins_truth/elementary.h"
 #include "motion_internal.h"
+#include "ramp_internal.h"
+#include "rotation_internal.h"
 #include <math.h>
 
-/// Integral, value and derivative of the amplitude that is 1 when under way.
-typedef struct
+/// Under way for ever without a ramp.
+static ins_ramp_t ramp_at(const ins_motion_t* self, double t)
 {
-    double integral; ///< [s]
-    double value;
-    double slope; ///< [1/s]
-} ramp_t;
-
-static ramp_t ramp_at(const ins_motion_t* self, double t)
-{
-    if (self->ramp_s == 0.0)
-    {
-        return (ramp_t){t, 1.0, 0.0};
-    }
-    if (t <= 0.0)
-    {
-        return (ramp_t){0.0, 0.0, 0.0};
-    }
-    if (t >= self->ramp_s)
-    {
-        return (ramp_t){t - 0.5 * self->ramp_s, 1.0, 0.0};
-    }
-    const double x = t / self->ramp_s;
-    return (ramp_t){self->ramp_s * x * x * x * x * (2.5 + x * (x - 3.0)), x * x * x * (10.0 + x * (6.0 * x - 15.0)),
-                    30.0 * x * x * (1.0 - x) * (1.0 - x) / self->ramp_s};
+    return self->ramp_s == 0.0 ? (ins_ramp_t){t, 1.0, 0.0} : ins_ramp_at(self->ramp_s, t);
 }
 
 /// Yaw, pitch, roll of the two Euler kinds, and their derivatives.
 static void angles_at(const ins_motion_t* self, double t, double angle[3], double speed[3])
 {
-    const ramp_t ramp = ramp_at(self, t);
+    const ins_ramp_t ramp = ramp_at(self, t);
     double rest[3];
     if (self->kind == INS_MOTION_TABLE)
     {
@@ -80,14 +61,6 @@ static void fill_nan(double* x, int n)
     }
 }
 
-static void quat_product(const double p[4], const double q[4], double out[4])
-{
-    out[0] = p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3];
-    out[1] = p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2];
-    out[2] = p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1];
-    out[3] = p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0];
-}
-
 static void turn_attitude(const ins_motion_turn_t* turn, double elapsed_s, double q_nb[4])
 {
     const double* const v = turn->w_ib_b;
@@ -97,7 +70,7 @@ static void turn_attitude(const ins_motion_turn_t* turn, double elapsed_s, doubl
     ins_truth_sincos(0.5 * w * elapsed_s, &s, &c);
     const double k = w > 0.0 ? s / w : 0.0;
     const double dq[4] = {c, k * v[0], k * v[1], k * v[2]};
-    quat_product(turn->q_nb0, dq, q_nb);
+    ins_rotation_product(turn->q_nb0, dq, q_nb);
 }
 
 static void coning_attitude(const ins_motion_coning_t* coning, double amplitude, double t, double q_nb[4])
@@ -112,20 +85,6 @@ static void coning_attitude(const ins_motion_coning_t* coning, double amplitude,
     q_nb[1] = 0.0;
     q_nb[2] = s * cw;
     q_nb[3] = s * sw;
-}
-
-static void euler_attitude(const double ypr[3], double q_nb[4])
-{
-    double s[3];
-    double c[3];
-    for (int i = 0; i < 3; i++)
-    {
-        ins_truth_sincos(0.5 * ypr[i], &s[i], &c[i]);
-    }
-    q_nb[0] = c[0] * c[1] * c[2] + s[0] * s[1] * s[2];
-    q_nb[1] = c[0] * c[1] * s[2] - s[0] * s[1] * c[2];
-    q_nb[2] = c[0] * s[1] * c[2] + s[0] * c[1] * s[2];
-    q_nb[3] = s[0] * c[1] * c[2] - c[0] * s[1] * s[2];
 }
 
 void ins_motion_attitude(const ins_motion_t* self, double t, double q_nb[4])
@@ -148,7 +107,7 @@ void ins_motion_attitude(const ins_motion_t* self, double t, double q_nb[4])
     case INS_MOTION_SINES:
     case INS_MOTION_TABLE:
         angles_at(self, t, angle, speed);
-        euler_attitude(angle, q_nb);
+        ins_rotation_of_angles(angle, q_nb);
         break;
     }
 }
@@ -168,7 +127,7 @@ void ins_motion_euler(const ins_motion_t* self, double t, double rpy[3])
 }
 
 /// Rotation by a about u = (0, cos wt, sin wt): w_ib_b = a' u + sin a u' - (1 - cos a) u x u'.
-static void coning_rate(const ins_motion_coning_t* coning, ramp_t ramp, double t, double w_ib_b[3])
+static void coning_rate(const ins_motion_coning_t* coning, ins_ramp_t ramp, double t, double w_ib_b[3])
 {
     const double w = 2.0 * INS_TRUTH_PI * coning->frequency_hz;
     const double a_half = 0.5 * coning->half_angle * ramp.value;
@@ -182,19 +141,6 @@ static void coning_rate(const ins_motion_coning_t* coning, ramp_t ramp, double t
     w_ib_b[0] = -2.0 * w * s * s;
     w_ib_b[1] = a_speed * cw - 2.0 * w * s * c * sw;
     w_ib_b[2] = a_speed * sw + 2.0 * w * s * c * cw;
-}
-
-static void euler_rate(const double ypr[3], const double speed[3], double w_ib_b[3])
-{
-    double sp;
-    double cp;
-    double sr;
-    double cr;
-    ins_truth_sincos(ypr[1], &sp, &cp);
-    ins_truth_sincos(ypr[2], &sr, &cr);
-    w_ib_b[0] = speed[2] - speed[0] * sp;
-    w_ib_b[1] = speed[1] * cr + speed[0] * sr * cp;
-    w_ib_b[2] = speed[0] * cr * cp - speed[1] * sr;
 }
 
 void ins_motion_rate(const ins_motion_t* self, double t, double w_ib_b[3])
@@ -220,7 +166,7 @@ void ins_motion_rate(const ins_motion_t* self, double t, double w_ib_b[3])
     case INS_MOTION_SINES:
     case INS_MOTION_TABLE:
         angles_at(self, t, angle, speed);
-        euler_rate(angle, speed, w_ib_b);
+        ins_rotation_rate(angle, speed, w_ib_b);
         break;
     }
 }

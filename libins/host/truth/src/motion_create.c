@@ -124,7 +124,7 @@ ins_motion_t* ins_motion_create_table(size_t rows, const double* t, const double
     const ins_why_t why = {text, size};
     const double* const y[3] = {yaw, pitch, roll};
     ins_motion_t* const self = create(INS_MOTION_TABLE, ramp_s, &why);
-    if (self == NULL || !ins_spline_init(&self->of.table, rows, t, y, &why))
+    if (self == NULL || !ins_spline_init(&self->of.table, &ins_spline_angles, rows, t, y, &why))
     {
         free(self);
         return NULL;

@@ -11,12 +11,13 @@
 #define ROWS_MIN    4
 #define ROWS_MAX    ((size_t)1 << 28)
 #define TIME_MAX_S  1e9
-#define ANGLE_MAX   1e6
 #define TIME_STEP_S 1e-9 ///< the least time between rows
 
-static const char* const column[3] = {"yaw", "pitch", "roll"};
+const ins_spline_kind_t ins_spline_angles = {{"yaw", "pitch", "roll"}, "radians", 1e6, INS_TRUTH_PI};
+const ins_spline_kind_t ins_spline_metres = {{"north", "east", "up"}, "metres", 1e6, 2e6};
 
-static bool check(size_t rows, const double* t, const double* const y[3], const ins_why_t* why)
+static bool check(const ins_spline_kind_t* kind, size_t rows, const double* t, const double* const y[3],
+                  const ins_why_t* why)
 {
     if (rows < ROWS_MIN || rows > ROWS_MAX)
     {
@@ -38,16 +39,17 @@ static bool check(size_t rows, const double* t, const double* const y[3], const 
         }
         for (int i = 0; i < 3; i++)
         {
-            if (!(fabs(y[i][k]) <= ANGLE_MAX))
+            if (!(fabs(y[i][k]) <= kind->most))
             {
-                ins_why_say(why, "row %zu: %s is %.9g, give radians within +-%g", k + 1, column[i], y[i][k], ANGLE_MAX);
+                ins_why_say(why, "row %zu: %s is %.9g, give %s within +-%g", k + 1, kind->column[i], y[i][k],
+                            kind->unit, kind->most);
                 return false;
             }
-            if (k > 0 && !(fabs(y[i][k] - y[i][k - 1]) <= INS_TRUTH_PI))
+            if (k > 0 && !(fabs(y[i][k] - y[i][k - 1]) <= kind->step))
             {
                 ins_why_say(
                     why, "row %zu: %s steps by %.9g rad, more than pi: give unwrapped angles, or rows closer in time",
-                    k + 1, column[i], y[i][k] - y[i][k - 1]);
+                    k + 1, kind->column[i], y[i][k] - y[i][k - 1]);
                 return false;
             }
         }
@@ -109,9 +111,10 @@ static double excursion(const ins_spline_t* self)
     return sum;
 }
 
-bool ins_spline_init(ins_spline_t* self, size_t rows, const double* t, const double* const y[3], const ins_why_t* why)
+bool ins_spline_init(ins_spline_t* self, const ins_spline_kind_t* kind, size_t rows, const double* t,
+                     const double* const y[3], const ins_why_t* why)
 {
-    if (!check(rows, t, y, why))
+    if (!check(kind, rows, t, y, why))
     {
         return false;
     }
@@ -178,6 +181,21 @@ void ins_spline_at(const ins_spline_t* self, double t, double value[3], double s
         const double mb = self->y2[i][k + 1] * h / 6.0;
         slope[i] = (yb - ya) / h - (3.0 * a * a - 1.0) * ma + (3.0 * b * b - 1.0) * mb;
         value[i] = a * ya + b * yb + h * ((a * a * a - a) * ma + (b * b * b - b) * mb) + slope[i] * (t - inside);
+    }
+}
+
+void ins_spline_bend(const ins_spline_t* self, double t, double bend[3])
+{
+    const size_t until = knots_until(self, t);
+    for (int i = 0; i < 3; i++)
+    {
+        bend[i] = 0.0;
+        if (until > 0 && until < self->rows)
+        {
+            const double* const y2 = self->y2[i] + until - 1;
+            const double b = (t - self->t[until - 1]) / (self->t[until] - self->t[until - 1]);
+            bend[i] = y2[0] + b * (y2[1] - y2[0]);
+        }
     }
 }
 

@@ -1,5 +1,5 @@
 /// \file   ins_truth/elementary.h
-/// \brief  Sine, cosine, arc tangent, logarithm in double from + - * /, fabs and floor: the same bits on every x86-64.
+/// \brief  Sine, cosine, arc tangent, logarithm, exponential in double from + - * /, fabs and floor: the same bits on every x86-64.
 ///
 /// A C library's sin() differs in the last bit between versions and with FMA; what reaches a converter code or a trace
 /// uses these.
@@ -20,6 +20,8 @@ INS_TRUTH_API double ins_truth_atan2(double y, double x);
 /// Natural logarithm of a positive normal number, error at most 1e-15 of max(1, |log x|). Zero, negative, infinity,
 /// NaN: NaN.
 INS_TRUTH_API double ins_truth_log(double x);
+/// e^x, relative error at most 1e-15. Below -708: 0; above 709: infinity; NaN: NaN.
+INS_TRUTH_API double ins_truth_exp(double x);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,53 @@
+/// \file   track_internal.h
+/// \brief  What a track is: a curve p(u) in n, u as a function of time, and a site. Made in track_create.c, evaluated in track.c.
+/// SPDX-License-Identifier: MIT
+#ifndef INS_TRUTH_TRACK_INTERNAL_H_INCLUDED
+#define INS_TRUTH_TRACK_INTERNAL_H_INCLUDED
+#include "ins_truth/track.h"
+#include "place_internal.h"
+#include "spline_internal.h"
+
+#define INS_TRACK_TIME_MAX_S 1e9
+
+typedef enum
+{
+    INS_TRACK_LINE, ///< also a still one, whose u stays 0
+    INS_TRACK_CIRCLE,
+    INS_TRACK_EIGHT,
+    INS_TRACK_WAYPOINTS ///< u is time
+} ins_track_kind_t;
+
+/// Axes of a plane curve and its sizes. u is way for a line and a circle, an angle for an eight.
+typedef struct ins_track_curve_t
+{
+    double along[3], across[3]; ///< unit vectors in n: the heading (climbing for a line), and right of it
+    double radius;              ///< of a circle; negative to the left
+    double length, width;       ///< of an eight
+    double u_per_way;
+} ins_track_curve_t;
+
+struct ins_track_t
+{
+    ins_track_kind_t kind;
+    ins_track_site_t site;
+    ins_place_t place; ///< of the site
+    double q_en[4];    ///< of the site's n
+    double w_ie_n[3];
+    const ins_motion_t* attitude; ///< NULL: along the path
+    ins_track_speed_t speed;
+    ins_track_curve_t curve;
+    ins_spline_t table;
+};
+
+/// A place on the curve with its derivatives by time, and the tangent that gives the direction at a standstill too.
+typedef struct ins_track_path_t
+{
+    double p[3], v[3], a[3]; ///< [m], [m/s], [m/s^2]
+    double tangent[3];       ///< dp/du, not 0
+    double bend[3];          ///< d2p/du2
+    double speed;            ///< du/dt
+} ins_track_path_t;
+
+void ins_track_path(const ins_track_t* self, double t, ins_track_path_t* out);
+
+#endif // INS_TRUTH_TRACK_INTERNAL_H_INCLUDED
