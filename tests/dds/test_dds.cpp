@@ -132,6 +132,81 @@ TEST(Dds, CarriesEveryFieldWithinAProcess)
     EXPECT_NEAR(seconds_now() - begin, 0.2, 0.15) << "waits, and no longer than told";
 }
 
+TEST(Dds, CarriesSolutionsWithEveryField)
+{
+    ins_dds_config_t cfg = config(1, 1);
+    cfg.kind = INS_DDS_SOLUTION;
+    const Handle dds = open(cfg);
+    ins_nav_solution_t want;
+    std::memset(&want, 0, sizeof want);
+    double* const reals[] = {
+        want.q_nb,          want.q_nb + 1,   want.q_nb + 2, want.q_nb + 3,    want.euler_rad,       want.euler_rad + 1,
+        want.euler_rad + 2, want.en_m,       want.en_m + 1, want.lat_lon_rad, want.lat_lon_rad + 1, want.v_en_m_s,
+        want.v_en_m_s + 1,  &want.fix_age_s, &want.t_s};
+    for (size_t i = 0; i < std::size(reals); i++)
+    {
+        *reals[i] = 0.1 * static_cast<double>(i + 1);
+    }
+    want.index = uint64_t{1} << 40;
+    want.sats = 9;
+    want.zone = 119;
+    want.seq = 200;
+    want.lost = 3;
+    want.status = INS_NAV_BLOCK_STATUS_ALL | INS_NAV_RESTARTED;
+    want.counts = {16, 17, 18, 19, 20, 21, 22};
+    ASSERT_EQ(ins_dds_publish_solution(dds.get(), &want, "dsp", 77), INS_DDS_OK) << ins_dds_error_text();
+    const auto got = take(dds.get(), 1);
+    ASSERT_EQ(got.size(), 1u);
+    EXPECT_STREQ(got[0].source, "dsp");
+    EXPECT_EQ(got[0].published_ns, 77);
+    EXPECT_EQ(std::memcmp(&got[0].solution, &want, sizeof want), 0);
+    const auto state = state_of(1);
+    EXPECT_EQ(ins_dds_publish(dds.get(), &state, "dsp", 0), INS_DDS_E_ARGUMENT);
+    EXPECT_NE(std::string(ins_dds_error_text()).find("cfg.kind was INS_DDS_SOLUTION"), std::string::npos);
+}
+
+TEST(Dds, DaemonPublishesTheSolutionsItPrints)
+{
+    const size_t count = 100;
+    ins_dds_config_t cfg = config(0, 1);
+    cfg.kind = INS_DDS_SOLUTION;
+    const Handle dds = open(cfg);
+    Pty pty;
+    Process navd({INS_NAVD, "--input", "nav", "--device", pty.path, "--dds=" + std::to_string(domain()), "--json", "-",
+                  "--source", "dsp", "--limit", std::to_string(count), "--queue", "100000"});
+    for (const double end = seconds_now() + limit_s; ins_dds_matched(dds.get()) < 1 && seconds_now() < end;)
+    {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    Board board(pty.fd, 0, 1000000, nav_block);
+    std::map<uint64_t, ins_dds_sample_t> got;
+    bool gone = false;
+    for (const double end = seconds_now() + limit_s; !gone && seconds_now() < end;)
+    {
+        ins_dds_sample_t s;
+        if (ins_dds_take(dds.get(), 0.1, &s, 1) == 1)
+        {
+            EXPECT_STREQ(s.source, "dsp");
+            gone = s.gone != 0;
+            if (s.valid)
+            {
+                got[s.solution.index] = s;
+            }
+        }
+        (void)navd.read_until([] { return false; }, 0.001);
+    }
+    EXPECT_EQ(navd.finish(limit_s), 0) << navd.err;
+    const auto lines = navd.states();
+    ASSERT_EQ(lines.size(), count);
+    ASSERT_GT(got.size(), 0u);
+    for (const auto& [index, s] : got)
+    {
+        char line[INS_NAV_JSON_MAX];
+        ASSERT_GT(ins_nav_solution_json(&s.solution, line, sizeof line), 0u);
+        ASSERT_EQ(nlohmann::json::parse(line), lines[index]);
+    }
+}
+
 TEST(Dds, KeepsTheNewestOfEachSourceWhenTheReaderIsSlow)
 {
     ins_dds_config_t cfg = config(1, 1);

@@ -3,11 +3,13 @@
 #ifndef TESTS_NAVD_BOARD_HPP
 #define TESTS_NAVD_BOARD_HPP
 #include "ins/handshake.h"
+#include "ins/nav_block.h"
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <fcntl.h>
+#include <functional>
 #include <poll.h>
 #include <stdexcept>
 #include <stdlib.h>
@@ -15,6 +17,7 @@
 #include <termios.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
 inline double seconds_now()
 {
@@ -31,6 +34,48 @@ inline std::array<uint16_t, 3> sample(uint64_t k)
         code[i] = static_cast<uint16_t>(std::lround(2048 + 1500 * std::sin(phase + static_cast<double>(i))));
     }
     return code;
+}
+
+using Octets = std::vector<ins_octet_t>;
+
+/// The block of sample k: XH XL YH YL ZH ZL.
+inline Octets code_block(uint64_t k)
+{
+    Octets block;
+    for (const uint16_t code : sample(k))
+    {
+        block.push_back(static_cast<ins_octet_t>(code >> 8));
+        block.push_back(static_cast<ins_octet_t>(code & 0xFF));
+    }
+    return block;
+}
+
+/// Block k of a navigating board that drives north-east and turns.
+inline ins_nav_block_t nav_of(uint64_t k)
+{
+    const double heading = 0.01 * static_cast<double>(k);
+    ins_nav_block_t nav = {};
+    nav.time_ms = static_cast<uint32_t>(167 * k);
+    nav.status = INS_NAV_BLOCK_ALIGNED | INS_NAV_BLOCK_FRACTION | INS_NAV_BLOCK_POSITION | INS_NAV_BLOCK_FILTER;
+    nav.sats = 8;
+    nav.fix_age = static_cast<uint_least8_t>(k % 10);
+    nav.en_cm[0] = 24700000 + static_cast<int32_t>(k);
+    nav.en_cm[1] = 274000000 + static_cast<int32_t>(k);
+    nav.v_en[0] = nav.v_en[1] = 0.0625;
+    nav.q_nb[0] = std::cos(heading / 2);
+    nav.q_nb[3] = std::sin(heading / 2);
+    return nav;
+}
+
+inline Octets nav_block(uint64_t k)
+{
+    Octets block(INS_NAV_BLOCK_LEN);
+    const ins_nav_block_t nav = nav_of(k);
+    if (ins_nav_block_put(&nav, block.data()) != INS_OK)
+    {
+        throw std::runtime_error("no navigation block");
+    }
+    return block;
 }
 
 /// The master side of a pty, raw.
@@ -58,12 +103,13 @@ class Pty
     std::string path;
 };
 
-/// Sends samples first, first + 1, ... until `last` or stopped. The descriptor stays the caller's.
+/// Sends blocks first, first + 1, ... until `last` or stopped. The descriptor stays the caller's.
 class Board
 {
   public:
-    Board(int fd_, uint64_t first, uint64_t count)
-        : fd(fd_), next(first), last(first + count), thread([this] { run(); })
+    /// \param[in] block_  what block k holds
+    Board(int fd_, uint64_t first, uint64_t count, std::function<Octets(uint64_t)> block_ = code_block)
+        : fd(fd_), next(first), last(first + count), block_of(std::move(block_)), thread([this] { run(); })
     {
     }
     ~Board() { stop(); }
@@ -93,7 +139,7 @@ class Board
     void run()
     {
         ins_hs_config_t cfg = {};
-        cfg.block_len = 6;
+        cfg.block_len = static_cast<uint_least8_t>(block_of(0).size());
         cfg.seq = 1;
         cfg.retries = 200;
         cfg.octet_timeout = 20;
@@ -110,14 +156,8 @@ class Board
             const auto now = static_cast<uint16_t>(static_cast<uint64_t>(seconds_now() * 1000) & 0xFFFF);
             if (!offered)
             {
-                const auto code = sample(next);
-                ins_octet_t block[6];
-                for (size_t i = 0; i < 3; i++)
-                {
-                    block[2 * i] = static_cast<ins_octet_t>(code[i] >> 8);
-                    block[2 * i + 1] = static_cast<ins_octet_t>(code[i] & 0xFF);
-                }
-                offered = ins_hs_board_offer(&board, block, static_cast<uint8_t>(next & 0xFF), now) == INS_OK;
+                const Octets block = block_of(next);
+                offered = ins_hs_board_offer(&board, block.data(), static_cast<uint8_t>(next & 0xFF), now) == INS_OK;
             }
             for (int16_t o = ins_hs_board_tx(&board, now); o >= 0; o = ins_hs_board_tx(&board, now))
             {
@@ -148,6 +188,7 @@ class Board
     const int fd;
     std::atomic<uint64_t> next;
     const uint64_t last;
+    const std::function<Octets(uint64_t)> block_of;
     std::atomic<bool> stopping{false};
     std::thread thread;
 };

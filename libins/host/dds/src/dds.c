@@ -1,5 +1,5 @@
 /// \file   dds.c
-/// \brief  Domain, writer and reader of libins::NavState on Cyclone DDS 0.10.
+/// \brief  Domain, writer and reader of libins::NavState or libins::NavSolution on Cyclone DDS 0.10.
 /// SPDX-License-Identifier: MIT
 #include "dds_internal.h"
 #include <stdlib.h>
@@ -20,7 +20,6 @@ static const char loopback_xml[] =
 void ins_dds_config_default(ins_dds_config_t* cfg)
 {
     memset(cfg, 0, sizeof *cfg);
-    cfg->topic = INS_DDS_TOPIC;
     cfg->publishes = 1;
     cfg->deadline_s = 1.0;
     cfg->lease_s = 1.0;
@@ -30,6 +29,11 @@ void ins_dds_config_default(ins_dds_config_t* cfg)
 static dds_duration_t duration(double seconds)
 {
     return (dds_duration_t)(seconds * 1e9);
+}
+
+static const char* usual_topic(const ins_dds_config_t* cfg)
+{
+    return cfg->kind == INS_DDS_STATE ? INS_DDS_TOPIC : INS_DDS_SOLUTION_TOPIC;
 }
 
 static int check(const ins_dds_config_t* cfg)
@@ -52,9 +56,13 @@ static int check(const ins_dds_config_t* cfg)
     {
         return dds_fail(INS_DDS_E_ARGUMENT, "the DDS configuration was to come from CYCLONEDDS_URI, which is not set");
     }
-    if (cfg->topic == NULL || cfg->topic[0] == '\0')
+    if (cfg->kind != INS_DDS_STATE && cfg->kind != INS_DDS_SOLUTION)
     {
-        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS topic name is empty: the usual one is %s", INS_DDS_TOPIC);
+        return dds_fail(INS_DDS_E_ARGUMENT, "unknown kind of DDS messages: %d", cfg->kind);
+    }
+    if (cfg->topic != NULL && cfg->topic[0] == '\0')
+    {
+        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS topic name is empty: the usual one is %s", usual_topic(cfg));
     }
     if (!cfg->publishes && !cfg->subscribes)
     {
@@ -148,7 +156,9 @@ static int create_entities(ins_dds_t* self, const ins_dds_config_t* cfg)
     {
         return refused(self, "participant", self->participant);
     }
-    self->topic = dds_create_topic(self->participant, &libins_NavState_desc, cfg->topic, NULL, NULL);
+    self->topic = dds_create_topic(self->participant,
+                                   cfg->kind == INS_DDS_STATE ? &libins_NavState_desc : &libins_NavSolution_desc,
+                                   cfg->topic != NULL ? cfg->topic : usual_topic(cfg), NULL, NULL);
     if (self->topic < 0)
     {
         return refused(self, "topic (letters, digits, _ and / may make its name)", self->topic);
@@ -199,6 +209,7 @@ int ins_dds_open(const ins_dds_config_t* cfg, ins_dds_t** self)
         return dds_fail(INS_DDS_E_DDS, "memory is out");
     }
     (void)pthread_mutex_init(&dds->log.mutex, NULL);
+    dds->kind = cfg->kind;
     dds->log.collect = 1;
     dds->log.log = cfg->log;
     dds->log.log_context = cfg->log_context;
@@ -225,23 +236,48 @@ int ins_dds_open(const ins_dds_config_t* cfg, ins_dds_t** self)
     return INS_DDS_OK;
 }
 
-int ins_dds_publish(ins_dds_t* self, const ins_nav_state_t* state, const char* source, int64_t published_ns)
+/// \param[out] id  [INS_DDS_SOURCE_MAX + 1], zeros before.
+static int may_publish(const ins_dds_t* self, int kind, const char* source, char* id)
 {
-    if (self->writer <= 0)
+    if (self->writer <= 0 || self->kind != kind)
     {
-        return dds_fail(INS_DDS_E_ARGUMENT, "this DDS handle was not opened to publish");
+        return dds_fail(INS_DDS_E_ARGUMENT, "this DDS handle was not opened to publish%s",
+                        self->writer <= 0       ? ""
+                        : kind == INS_DDS_STATE ? " states: cfg.kind was INS_DDS_SOLUTION"
+                                                : " solutions: cfg.kind was INS_DDS_STATE");
     }
     const size_t length = strlen(source);
     if (length < 1 || length > INS_DDS_SOURCE_MAX)
     {
         return dds_fail(INS_DDS_E_ARGUMENT, "a source id has 1 to %d octets, this one %zu", INS_DDS_SOURCE_MAX, length);
     }
+    memcpy(id, source, length);
+    return INS_DDS_OK;
+}
+
+static int write_message(const ins_dds_t* self, const void* message)
+{
+    const dds_return_t code = dds_write(self->writer, message);
+    return code < 0 ? dds_fail(INS_DDS_E_DDS, "DDS could not publish: %s", dds_strretcode(code)) : INS_DDS_OK;
+}
+
+int ins_dds_publish(ins_dds_t* self, const ins_nav_state_t* state, const char* source, int64_t published_ns)
+{
     libins_NavState message = {0};
-    memcpy(message.source, source, length);
     message.published_ns = published_ns;
     dds_from_state(state, &message);
-    const dds_return_t code = dds_write(self->writer, &message);
-    return code < 0 ? dds_fail(INS_DDS_E_DDS, "DDS could not publish: %s", dds_strretcode(code)) : INS_DDS_OK;
+    const int status = may_publish(self, INS_DDS_STATE, source, message.source);
+    return status == INS_DDS_OK ? write_message(self, &message) : status;
+}
+
+int ins_dds_publish_solution(ins_dds_t* self, const ins_nav_solution_t* solution, const char* source,
+                             int64_t published_ns)
+{
+    libins_NavSolution message = {0};
+    message.published_ns = published_ns;
+    dds_from_solution(solution, &message);
+    const int status = may_publish(self, INS_DDS_SOLUTION, source, message.source);
+    return status == INS_DDS_OK ? write_message(self, &message) : status;
 }
 
 /// What is there now. \return samples in out, fewer than taken where a sample only says that its source is back.
@@ -251,7 +287,7 @@ static int take_now(ins_dds_t* self, ins_dds_sample_t* out, int max)
     dds_sample_info_t info[TAKE_MAX];
     for (int i = 0; i < TAKE_MAX; i++)
     {
-        buffer[i] = &self->taken[i];
+        buffer[i] = self->kind == INS_DDS_STATE ? (void*)&self->taken.state[i] : (void*)&self->taken.solution[i];
     }
     const uint32_t want = max < TAKE_MAX ? (uint32_t)max : TAKE_MAX;
     const dds_return_t got = dds_take(self->reader, buffer, info, want, want);
@@ -268,14 +304,9 @@ static int take_now(ins_dds_t* self, ins_dds_sample_t* out, int max)
         }
         ins_dds_sample_t* sample = &out[count++];
         memset(sample, 0, sizeof *sample);
-        memcpy(sample->source, self->taken[i].source, sizeof sample->source);
         sample->valid = info[i].valid_data;
         sample->gone = info[i].instance_state != DDS_IST_ALIVE;
-        if (info[i].valid_data)
-        {
-            sample->published_ns = self->taken[i].published_ns;
-            dds_to_state(&self->taken[i], &sample->state);
-        }
+        dds_to_sample(self, i, sample);
     }
     return count;
 }

@@ -29,7 +29,12 @@ struct ins_dds_t
     dds_entity_t reader;
     dds_entity_t waitset;
     dds_log_t log;
-    libins_NavState taken[TAKE_MAX];
+    int kind; ///< INS_DDS_STATE or INS_DDS_SOLUTION
+    union
+    {
+        libins_NavState state[TAKE_MAX];
+        libins_NavSolution solution[TAKE_MAX];
+    } taken;
 };
 
 /// Sets the thread's error text. \return status
@@ -37,7 +42,9 @@ int dds_fail(int status, const char* format, ...);
 void dds_log_line(void* context, const dds_log_data_t* data);
 
 /// The two structs hold the same fields; source and published_ns are the caller's.
-void dds_from_state(const ins_nav_state_t* state, libins_NavState* message);
-void dds_to_state(const libins_NavState* message, ins_nav_state_t* state);
+void dds_from_state(const ins_nav_state_t* from, libins_NavState* message);
+void dds_from_solution(const ins_nav_solution_t* from, libins_NavSolution* message);
+/// Message `at` of those taken; the contents only if the sample is valid.
+void dds_to_sample(const ins_dds_t* self, int at, ins_dds_sample_t* sample);
 
 #endif // INS_DDS_INTERNAL_H_INCLUDED

@@ -1,5 +1,5 @@
 /// \file   main.c
-/// \brief  ins-navd: samples from a board's serial line to attitude, as JSON lines and over DDS.
+/// \brief  ins-navd: samples from a board's serial line to attitude, or what a navigating board says, as JSON lines and over DDS.
 ///
 /// Two threads, after Zheng and Zhou (2010), section 3.4: one receives and answers, one computes and hands on. Their shared variable,
 /// which overwrites, is a bounded queue here. Exit codes: 0 done, 1 time-out or output failed, 2 bad usage, device or DDS.
@@ -41,6 +41,25 @@ typedef struct totals_t
     double age_max_s;
 } totals_t;
 
+/// \return 1 handed on; 0 the sample could not be used; -1 with the reason in error.
+static int hand_on(const queue_item_t* item, ins_nav_solver_t* solver, output_t* output, const options_t* options,
+                   totals_t* totals, char* error, size_t size)
+{
+    if (options->input == INPUT_NAV)
+    {
+        totals->missed += item->is.solution.lost;
+        return output_solution(output, &item->is.solution, &stop, error, size) == 0 ? 1 : -1;
+    }
+    ins_nav_state_t state;
+    if (ins_nav_solver_step(solver, &item->is.sample, &state) != INS_OK)
+    {
+        fprintf(stderr, "ins-navd: sample %llu could not be used\n", (unsigned long long)item->is.sample.index);
+        return 0;
+    }
+    totals->missed = state.missed;
+    return output_state(output, &state, &stop, error, size) == 0 ? 1 : -1;
+}
+
 /// The computing half, until the queue is closed, the limit is reached or the output fails.
 static void compute(queue_t* queue, ins_nav_solver_t* solver, output_t* output, const options_t* options,
                     totals_t* totals)
@@ -49,23 +68,21 @@ static void compute(queue_t* queue, ins_nav_solver_t* solver, output_t* output, 
     char error[512];
     while (queue_get(queue, &item))
     {
-        ins_nav_state_t state;
-        if (ins_nav_solver_step(solver, &item.sample, &state) != INS_OK)
-        {
-            fprintf(stderr, "ins-navd: sample %llu could not be used\n", (unsigned long long)item.sample.index);
-            continue;
-        }
         int running = RUNNING;
-        if (output_state(output, &state, &stop, error, sizeof error) != 0)
+        const int done = hand_on(&item, solver, output, options, totals, error, sizeof error);
+        if (done < 0)
         {
             fprintf(stderr, "ins-navd: %s\n", error);
             (void)atomic_compare_exchange_strong(&stop, &running, STOP_OUTPUT);
             return;
         }
+        if (done == 0)
+        {
+            continue;
+        }
         const double age_s = (double)(now_ns() - item.arrived_ns) * 1e-9;
         totals->age_sum_s += age_s;
         totals->age_max_s = age_s > totals->age_max_s ? age_s : totals->age_max_s;
-        totals->missed = state.missed;
         if (++totals->states == options->limit)
         {
             (void)atomic_compare_exchange_strong(&stop, &running, STOP_LIMIT);
@@ -77,7 +94,7 @@ static void compute(queue_t* queue, ins_nav_solver_t* solver, output_t* output, 
 static void summary(const receiver_t* r, const output_t* output, const totals_t* t, stop_t reason)
 {
     static const char* const reasons[] = {"", "signal", "limit", "timeout", "output"};
-    const ins_nav_counts_t* c = &r->link.counts;
+    const ins_nav_counts_t* c = receiver_counts(r);
     event(r->options, "summary",
           ",\"reason\":\"%s\",\"states\":%llu,\"missed\":%llu,\"overruns\":%llu,\"octets\":%llu,\"reopens\":%llu,"
           "\"unsent\":%llu,"
@@ -100,6 +117,10 @@ static int run(const options_t* options, receiver_t* receiver, queue_t* queue, o
     pthread_t thread;
     (void)ins_nav_solver_init(&solver, &options->nav); // options_parse() has checked nav
     (void)ins_nav_link_init(&receiver->link, &options->nav);
+    ins_nav_input_config_t input;
+    ins_nav_input_config_default(&input);
+    input.octet_timeout_ms = options->nav.octet_timeout_ms;
+    (void)ins_nav_input_init(&receiver->input, &input);
     receiver->options = options;
     receiver->queue = queue;
     receiver->stop = &stop;
@@ -114,8 +135,9 @@ static int run(const options_t* options, receiver_t* receiver, queue_t* queue, o
     if (reason == STOP_TIMEOUT)
     {
         fprintf(stderr, "ins-navd: no sample for %g s from %s: %s\n", options->timeout_s, options->device,
-                receiver->octets == 0
-                    ? "not one octet came; is the board powered, are its lines the right way round?"
+                receiver->octets == 0 ? "not one octet came; is the board powered, are its lines the right way round?"
+                : options->input == INPUT_NAV
+                    ? "octets came, but no right block; compare --baud and --input with the firmware"
                     : "octets came, but no right block; compare --baud, --block-len and --seq with the firmware");
     }
     summary(receiver, output, &totals, reason);

@@ -17,33 +17,36 @@ static const char* const help =
     "usage: ins-navd --device PATH|tcp:HOST:PORT [options]\n"
     "Receives gyro samples from a sampling board over its handshake link, integrates the attitude, prints and "
     "publishes it.\n"
+    "With --input nav: receives what a navigating board has computed, prints and publishes it.\n"
     "\n"
     "link\n"
     "  -d, --device PATH         serial device or pty; or tcp:HOST:PORT\n"
-    "  -b, --baud N              9600 (8 data bits, no parity, 1 stop bit, raw)\n"
+    "      --input codes|nav     what the board sends: gyro codes, or position, velocity and attitude; codes\n"
+    "  -b, --baud N              9600, with --input nav 19200 (8 data bits, no parity, 1 stop bit, raw)\n"
     "  -w, --wait                wait for a device that is missing at the start\n"
     "      --block-len N         octets of a block, 6 to 32; 6\n"
     "      --seq, --no-seq       sequence number in the spare bits of X and Y, or not; --seq\n"
     "      --octet-timeout-ms N  longest silence inside a block, below the board's wait for a reply;\n"
-    "                            0.3 periods, at least 3 octets\n"
-    "sensor\n"
+    "                            0.3 periods, at least 3 octets; with --input nav 30 ms, at least 3 octets\n"
+    "sensor (--input codes, as --block-len and --seq)\n"
     "  -p, --period S            the firmware's sampling period; 0.02\n"
     "      --lsb-deg-s V[,V,V]   rate per code; 180/4096\n"
     "      --null-code V[,V,V]   code at rest; 2048\n"
     "      --code-max N          full scale; 4095\n"
     "      --skew-us X,Y,Z       delay of each channel within a scan; 0,0,0 (no compensation)\n"
     "      --skew-order N        1 to 3; 2\n"
-    "navigation\n"
+    "navigation (--input codes)\n"
     "  -a, --attitude-deg R,P,Y  roll, pitch, yaw at the first sample; 0,0,0\n"
     "      --form NAME           one, hist1, hist2-fit, hist2-opt, hist3-fit, hist3-opt; hist2-opt\n"
     "      --rate-order N        2 (trapezoid) to 5; 4\n"
     "      --bridge-max N        lost samples in a row before the state says long_gap; 50\n"
     "output\n"
     "  -j, --json FILE|-         one JSON line per sample; standard output, unless --dds is given\n"
-    "      --dds[=DOMAIN]        publish libins::NavState; domain 0, loopback only\n"
+    "      --dds[=DOMAIN]        publish libins::NavState, with --input nav libins::NavSolution; domain 0, loopback "
+    "only\n"
     "      --dds-config FILE     Cyclone DDS configuration (XML) in place of loopback\n"
     "      --dds-env             configuration from CYCLONEDDS_URI in place of loopback\n"
-    "      --topic NAME          libins/nav_state\n"
+    "      --topic NAME          libins/nav_state, with --input nav libins/nav_solution\n"
     "      --partition NAME      none\n"
     "      --source ID           key of the published states; ins-navd\n"
     "      --queue N             samples that may wait between the two threads; 64. A sample that finds it full is\n"
@@ -57,7 +60,8 @@ static const char* const help =
 
 enum
 {
-    O_BLOCK_LEN = 256,
+    O_INPUT = 256,
+    O_BLOCK_LEN,
     O_SEQ,
     O_NO_SEQ,
     O_OCTET_TIMEOUT,
@@ -80,6 +84,7 @@ enum
 
 static const struct option known[] = {
     {"device", required_argument, NULL, 'd'},
+    {"input", required_argument, NULL, O_INPUT},
     {"baud", required_argument, NULL, 'b'},
     {"wait", no_argument, NULL, 'w'},
     {"block-len", required_argument, NULL, O_BLOCK_LEN},
@@ -200,14 +205,36 @@ static int form(const char* text, int* out)
     return 0;
 }
 
+static int input(const char* text, input_t* out)
+{
+    *out = strcmp(text, "nav") == 0 ? INPUT_NAV : INPUT_CODES;
+    if (*out == INPUT_CODES && strcmp(text, "codes") != 0)
+    {
+        fprintf(stderr, "ins-navd: --input: '%s' is neither codes nor nav\n", text);
+        return 0;
+    }
+    return 1;
+}
+
+/// Options about samples and their integration.
+static int only_for_codes(int code)
+{
+    return code == 'p' || code == 'a' || (code >= O_LSB && code <= O_BRIDGE_MAX) || code == O_BLOCK_LEN ||
+           code == O_SEQ || code == O_NO_SEQ;
+}
+
 /// One option. \return 1; 0 after a message.
 static int take(options_t* o, int code, const char* text)
 {
     uint64_t n = 0;
     int good = 1;
     double angle[3];
+    o->codes_option = only_for_codes(code) ? option_name(code) : o->codes_option;
     switch (code)
     {
+    case O_INPUT:
+        good = input(text, &o->input);
+        break;
     case 'd':
         o->device = text;
         break;
@@ -319,19 +346,27 @@ static int take(options_t* o, int code, const char* text)
     return good;
 }
 
-/// The boards of this project wait two fifths of a period for a reply, at least five octets' time.
+/// The sampling boards of this project wait two fifths of a period for a reply, at least five octets' time; the navigating one 100 ms.
 static uint16_t usual_octet_timeout_ms(const options_t* o)
 {
     const double octet_ms = 10e3 / (double)o->baud;
-    const double wanted_ms = 300.0 * o->nav.period_s > 3.0 * octet_ms ? 300.0 * o->nav.period_s : 3.0 * octet_ms;
+    const double usual_ms = o->input == INPUT_NAV ? 30.0 : 300.0 * o->nav.period_s;
+    const double wanted_ms = usual_ms > 3.0 * octet_ms ? usual_ms : 3.0 * octet_ms;
     return (uint16_t)(wanted_ms < 2.0 ? 2.0 : wanted_ms < 1000.0 ? wanted_ms : 1000.0);
 }
 
 static const char* problem(const options_t* o)
 {
+    static char text[96];
     if (o->device == NULL)
     {
         return "no device: give --device PATH or --device tcp:HOST:PORT";
+    }
+    if (o->input == INPUT_NAV && o->codes_option != NULL)
+    {
+        (void)snprintf(text, sizeof text, "--%s is for --input codes: a navigating board says all that itself",
+                       o->codes_option);
+        return text;
     }
     if (!port_baud_known(o->baud))
     {
@@ -353,7 +388,7 @@ int options_parse(int argc, char** argv, options_t* options)
     memset(options, 0, sizeof *options);
     ins_nav_config_default(&options->nav);
     options->nav.octet_timeout_ms = 0; // not given
-    options->baud = 9600;
+    options->baud = 0;
     options->queue = 64;
     options->source = "ins-navd";
     for (;;)
@@ -379,6 +414,10 @@ int options_parse(int argc, char** argv, options_t* options)
         {
             return 2;
         }
+    }
+    if (options->baud == 0)
+    {
+        options->baud = options->input == INPUT_NAV ? 19200 : 9600;
     }
     if (options->nav.octet_timeout_ms == 0)
     {

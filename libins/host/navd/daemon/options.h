@@ -4,10 +4,20 @@
 #ifndef NAVD_OPTIONS_H_INCLUDED
 #define NAVD_OPTIONS_H_INCLUDED
 #include "ins_nav/nav.h"
+#include "ins_nav/nav_input.h"
+
+/// What the board's blocks hold.
+typedef enum input_t
+{
+    INPUT_CODES, ///< codes of three gyros: the daemon navigates
+    INPUT_NAV    ///< ins/nav_block.h: the board has navigated
+} input_t;
 
 typedef struct options_t
 {
-    ins_nav_config_t nav;
+    input_t input;
+    const char* codes_option; ///< name of an option given that only INPUT_CODES has; NULL = none
+    ins_nav_config_t nav;     ///< octet_timeout_ms is for both
     const char* device;
     long baud;
     int wait; ///< a device that is missing at the start is waited for

@@ -67,30 +67,37 @@ static int write_line(output_t* self, const char* line, size_t length, const ato
     return 0;
 }
 
-int output_state(output_t* self, const ins_nav_state_t* state, const atomic_int* stop, char* error, size_t size)
+static int finish(output_t* self, int published, const char* line, size_t length, const atomic_int* stop, char* error,
+                  size_t size)
 {
     if (self->publisher != NULL)
     {
-        if (publisher_put(self->publisher, state))
-        {
-            self->published++;
-        }
-        else
-        {
-            self->unpublished++;
-        }
+        self->published += published != 0;
+        self->unpublished += published == 0;
     }
-    if (self->fd >= 0)
+    if (self->fd >= 0 && write_line(self, line, length, stop) != 0)
     {
-        char line[INS_NAV_JSON_MAX];
-        const size_t length = ins_nav_state_json(state, line, sizeof line);
-        if (write_line(self, line, length, stop) != 0)
-        {
-            (void)snprintf(error, size, "cannot write %s: %s", self->name, strerror(errno));
-            return -1;
-        }
+        (void)snprintf(error, size, "cannot write %s: %s", self->name, strerror(errno));
+        return -1;
     }
     return 0;
+}
+
+int output_state(output_t* self, const ins_nav_state_t* state, const atomic_int* stop, char* error, size_t size)
+{
+    char line[INS_NAV_JSON_MAX];
+    const int published = self->publisher != NULL && publisher_put(self->publisher, state);
+    const size_t length = self->fd >= 0 ? ins_nav_state_json(state, line, sizeof line) : 0;
+    return finish(self, published, line, length, stop, error, size);
+}
+
+int output_solution(output_t* self, const ins_nav_solution_t* solution, const atomic_int* stop, char* error,
+                    size_t size)
+{
+    char line[INS_NAV_JSON_MAX];
+    const int published = self->publisher != NULL && publisher_put_solution(self->publisher, solution);
+    const size_t length = self->fd >= 0 ? ins_nav_solution_json(solution, line, sizeof line) : 0;
+    return finish(self, published, line, length, stop, error, size);
 }
 
 void output_close(output_t* self)

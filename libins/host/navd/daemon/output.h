@@ -12,6 +12,7 @@ typedef struct publisher_t publisher_t;
 publisher_t* publisher_open(const options_t* options, char* error, size_t size);
 /// \return 1 published, 0 not.
 int publisher_put(publisher_t* self, const ins_nav_state_t* state);
+int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution);
 /// NULL is allowed.
 void publisher_close(publisher_t* self);
 
@@ -29,6 +30,9 @@ typedef struct output_t
 int output_open(output_t* self, const options_t* options, char* error, size_t size);
 /// Waits for a slow reader of the JSON lines, until *stop. \return 0; -1 with the reason in error: no further line can be written.
 int output_state(output_t* self, const ins_nav_state_t* state, const atomic_int* stop, char* error, size_t size);
+/// The same, for what a navigating board says.
+int output_solution(output_t* self, const ins_nav_solution_t* solution, const atomic_int* stop, char* error,
+                    size_t size);
 void output_close(output_t* self);
 
 /// One line {"event":"NAME", ...} on standard error. The format's rest begins after the name, such as ",\"count\":%d".

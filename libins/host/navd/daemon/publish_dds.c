@@ -52,7 +52,8 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
     ins_dds_config_default(&cfg);
     char* text = NULL;
     cfg.domain = options->domain;
-    cfg.topic = options->topic != NULL ? options->topic : cfg.topic;
+    cfg.kind = options->input == INPUT_NAV ? INS_DDS_SOLUTION : INS_DDS_STATE;
+    cfg.topic = options->topic;
     cfg.partition = options->partition;
     cfg.network = options->dds_environment ? INS_DDS_ENVIRONMENT : INS_DDS_LOOPBACK;
     cfg.log = log_line;
@@ -84,12 +85,21 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
     return self;
 }
 
-int publisher_put(publisher_t* self, const ins_nav_state_t* state)
+static int64_t wall_ns(void)
 {
     struct timespec now;
     (void)clock_gettime(CLOCK_REALTIME, &now);
-    return ins_dds_publish(self->dds, state, self->source, (int64_t)now.tv_sec * 1000000000 + now.tv_nsec) ==
-           INS_DDS_OK;
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
+
+int publisher_put(publisher_t* self, const ins_nav_state_t* state)
+{
+    return ins_dds_publish(self->dds, state, self->source, wall_ns()) == INS_DDS_OK;
+}
+
+int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution)
+{
+    return ins_dds_publish_solution(self->dds, solution, self->source, wall_ns()) == INS_DDS_OK;
 }
 
 void publisher_close(publisher_t* self)

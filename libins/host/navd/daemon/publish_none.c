@@ -19,6 +19,13 @@ int publisher_put(publisher_t* self, const ins_nav_state_t* state)
     return 0;
 }
 
+int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution)
+{
+    (void)self;
+    (void)solution;
+    return 0;
+}
+
 void publisher_close(publisher_t* self)
 {
     (void)self;

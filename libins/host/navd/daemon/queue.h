@@ -4,12 +4,17 @@
 #ifndef NAVD_QUEUE_H_INCLUDED
 #define NAVD_QUEUE_H_INCLUDED
 #include "ins_nav/nav.h"
+#include "ins_nav/nav_input.h"
 #include <semaphore.h>
 #include <stdatomic.h>
 
 typedef struct queue_item_t
 {
-    ins_nav_sample_t sample;
+    union
+    {
+        ins_nav_sample_t sample;     ///< INPUT_CODES
+        ins_nav_solution_t solution; ///< INPUT_NAV
+    } is;
     uint64_t arrived_ns; ///< when its last octet was read, monotonic clock
 } queue_item_t;
 

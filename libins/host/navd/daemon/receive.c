@@ -34,6 +34,31 @@ uint64_t now_ns(void)
     return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
 
+const ins_nav_counts_t* receiver_counts(const receiver_t* self)
+{
+    return self->options->input == INPUT_NAV ? &self->input.counts : &self->link.counts;
+}
+
+/// \return 1: *item holds what came.
+static int link_octet(receiver_t* self, uint8_t octet, uint64_t now_ms, int* reply, queue_item_t* item)
+{
+    return self->options->input == INPUT_NAV
+               ? ins_nav_input_octet(&self->input, octet, now_ms, reply, &item->is.solution)
+               : ins_nav_link_octet(&self->link, octet, now_ms, reply, &item->is.sample);
+}
+
+static void link_tick(receiver_t* self, uint64_t now_ms)
+{
+    if (self->options->input == INPUT_NAV)
+    {
+        ins_nav_input_tick(&self->input, now_ms);
+    }
+    else
+    {
+        ins_nav_link_tick(&self->link, now_ms);
+    }
+}
+
 static void unplugged(receiver_t* self, local_t* local, const char* reason)
 {
     (void)close(self->fd);
@@ -63,7 +88,7 @@ static void take_octet(receiver_t* self, local_t* local, uint8_t octet, uint64_t
 {
     int reply;
     queue_item_t item;
-    const int got = ins_nav_link_octet(&self->link, octet, t_ns / 1000000u, &reply, &item.sample);
+    const int got = link_octet(self, octet, t_ns / 1000000u, &reply, &item);
     if (reply >= 0)
     {
         const uint8_t answer = (uint8_t)reply;
@@ -93,7 +118,7 @@ static void listen_once(receiver_t* self, local_t* local)
     const uint64_t t_ns = now_ns();
     if (ready == 0)
     {
-        ins_nav_link_tick(&self->link, t_ns / 1000000u);
+        link_tick(self, t_ns / 1000000u);
         return;
     }
     uint8_t octets[256];
@@ -118,14 +143,15 @@ static void watch(receiver_t* self, local_t* local)
     }
     if (!local->hinted && local->octets_since >= SILENT_OCTETS && silent_ns >= SILENT_NS)
     {
-        const ins_nav_counts_t* c = &self->link.counts;
+        const ins_nav_counts_t* c = receiver_counts(self);
         local->hinted = 1;
         event(self->options, "no_samples",
               ",\"octets\":%llu,\"invalid\":%llu,\"corrupt\":%llu,\"timeouts\":%llu,\"stray\":%llu,"
-              "\"hint\":\"octets arrive, but no block of samples: compare --baud, --block-len and --seq with the "
-              "firmware\"",
+              "\"hint\":\"octets arrive, but no block %s with the firmware\"",
               (unsigned long long)local->octets_since, (unsigned long long)c->invalid, (unsigned long long)c->corrupt,
-              (unsigned long long)c->timeouts, (unsigned long long)c->stray);
+              (unsigned long long)c->timeouts, (unsigned long long)c->stray,
+              self->options->input == INPUT_NAV ? "of a navigating board: compare --baud and --input"
+                                                : "of samples: compare --baud, --block-len and --seq");
     }
     int running = RUNNING;
     if (self->options->timeout_s > 0.0 && (double)silent_ns * 1e-9 > self->options->timeout_s)

@@ -20,16 +20,19 @@ typedef struct receiver_t
 {
     const options_t* options;
     queue_t* queue;
-    atomic_int* stop; ///< stop_t
-    ins_nav_link_t link;
-    int fd;            ///< -1 = unplugged
-    uint64_t octets;   ///< read
-    uint64_t overruns; ///< samples dropped because the queue was full
-    uint64_t reopens;  ///< times the line came back
-    uint64_t unsent;   ///< replies that the line did not take
+    atomic_int* stop;      ///< stop_t
+    ins_nav_link_t link;   ///< INPUT_CODES
+    ins_nav_input_t input; ///< INPUT_NAV
+    int fd;                ///< -1 = unplugged
+    uint64_t octets;       ///< read
+    uint64_t overruns;     ///< samples dropped because the queue was full
+    uint64_t reopens;      ///< times the line came back
+    uint64_t unsent;       ///< replies that the line did not take
 } receiver_t;
 
 uint64_t now_ns(void);
+/// Of the half that the input takes.
+const ins_nav_counts_t* receiver_counts(const receiver_t* self);
 /// \param[in] self a receiver_t. Runs until *stop, then closes the queue.
 void* receive_thread(void* self);
 

@@ -1,5 +1,6 @@
 /// \file   ins_dds/dds.h
-/// \brief  Navigation states over DDS (Eclipse Cyclone DDS), type libins::NavState of idl/libins.idl. Units as in ins_nav/nav.h.
+/// \brief  Navigation states over DDS (Eclipse Cyclone DDS), types libins::NavState and libins::NavSolution of idl/libins.idl.
+///         Units as in ins_nav/nav.h and ins_nav/nav_input.h.
 ///
 ///     ins_dds_config_t cfg;
 ///     ins_dds_config_default(&cfg);
@@ -15,13 +16,15 @@
 #ifndef INS_DDS_DDS_H_INCLUDED
 #define INS_DDS_DDS_H_INCLUDED
 #include "ins_nav/nav.h"
+#include "ins_nav/nav_input.h"
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define INS_DDS_TOPIC      "libins/nav_state"
-#define INS_DDS_SOURCE_MAX 63  ///< octets of a source id
-#define INS_DDS_DOMAIN_MAX 230 ///< DDS security of Cyclone 0.10 accepts no higher one
+#define INS_DDS_TOPIC          "libins/nav_state"
+#define INS_DDS_SOLUTION_TOPIC "libins/nav_solution"
+#define INS_DDS_SOURCE_MAX     63  ///< octets of a source id
+#define INS_DDS_DOMAIN_MAX     230 ///< DDS security of Cyclone 0.10 accepts no higher one
 
 enum
 {
@@ -30,6 +33,13 @@ enum
     INS_DDS_E_DOMAIN = -2,   ///< the process already has this domain; INS_DDS_JOIN takes part in it
     INS_DDS_E_NETWORK = -3,  ///< no usable network interface
     INS_DDS_E_DDS = -4       ///< refused by Cyclone DDS
+};
+
+/// What a handle carries.
+enum
+{
+    INS_DDS_STATE = 0,   ///< ins_nav_state_t, as libins::NavState
+    INS_DDS_SOLUTION = 1 ///< ins_nav_solution_t, as libins::NavSolution
 };
 
 /// Where the domain's configuration comes from.
@@ -46,7 +56,8 @@ typedef struct ins_dds_config_t
     uint32_t domain;       ///< 0..INS_DDS_DOMAIN_MAX
     int network;           ///< INS_DDS_LOOPBACK ...
     const char* xml;       ///< with INS_DDS_XML: a CycloneDDS XML document (text, not a file name)
-    const char* topic;     ///< topic name
+    int kind;              ///< INS_DDS_STATE or INS_DDS_SOLUTION
+    const char* topic;     ///< topic name; NULL = the usual one of the kind
     const char* partition; ///< NULL = the default partition
     int publishes;         ///< 1: there is a writer
     int subscribes;        ///< 1: there is a reader
@@ -63,19 +74,23 @@ typedef struct ins_dds_sample_t
 {
     char source[INS_DDS_SOURCE_MAX + 1];
     int64_t published_ns; ///< publisher's clock at publication [ns since 1970]
-    int valid; ///< 1: state and published_ns hold a sample; 0: this only brings the news that the source is gone
-    int gone;  ///< 1: when it was taken, the last writer of this source had left or fallen silent
-    ins_nav_state_t state;
+    int valid; ///< 1: published_ns and state, or solution, hold a sample; 0: this only brings the news that the source is gone
+    int gone;                    ///< 1: when it was taken, the last writer of this source had left or fallen silent
+    ins_nav_state_t state;       ///< of a handle of INS_DDS_STATE, else 0
+    ins_nav_solution_t solution; ///< of a handle of INS_DDS_SOLUTION, else 0
 } ins_dds_sample_t;
 
 typedef struct ins_dds_t ins_dds_t;
 
-/// Domain 0, loopback, INS_DDS_TOPIC, no partition, publishes, deadline 1 s, lease 1 s, history 16.
+/// Domain 0, loopback, states, usual topic, no partition, publishes, deadline 1 s, lease 1 s, history 16.
 INS_API void ins_dds_config_default(ins_dds_config_t* cfg);
 /// \return INS_DDS_OK, or an error, and then *self is NULL and nothing is left open.
 INS_API int ins_dds_open(const ins_dds_config_t* cfg, ins_dds_t** self);
 /// \param[in] source id of the publishing unit, 1..INS_DDS_SOURCE_MAX octets: the key of the topic.
 INS_API int ins_dds_publish(ins_dds_t* self, const ins_nav_state_t* state, const char* source, int64_t published_ns);
+/// As ins_dds_publish(), with a handle of INS_DDS_SOLUTION.
+INS_API int ins_dds_publish_solution(ins_dds_t* self, const ins_nav_solution_t* solution, const char* source,
+                                     int64_t published_ns);
 /// Wait until something is there, at most timeout_s (0 = look, do not wait). \return samples written to out, 0 = timed out; or an error.
 INS_API int ins_dds_take(ins_dds_t* self, double timeout_s, ins_dds_sample_t* out, int max);
 /// Readers matched with the writer plus writers matched with the reader; negative on error.
