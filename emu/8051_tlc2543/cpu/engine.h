@@ -22,7 +22,13 @@ void mcs51_fast(mcs51_t* self);
 void mcs51_plain(mcs51_t* self, bool one);
 /// An instruction at pc is about to be executed. \return false: stop before it.
 bool mcs51_enter(mcs51_t* self);
-void mcs51_seen(mcs51_t* self, mcs51_space_t space, uint16_t address, uint8_t value, bool write);
+static inline void mcs51_seen(mcs51_t* self, mcs51_space_t space, uint16_t address, uint8_t value, bool write)
+{
+    if (self->observer.access)
+    {
+        self->observer.access(self->observer.ctx, space, address, value, write, mcs51_cycle(self));
+    }
+}
 
 /// How an instruction accesses its direct operand, the first octet after the opcode. READS | WRITES: reads the first, writes the second.
 enum

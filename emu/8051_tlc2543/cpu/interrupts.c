@@ -16,31 +16,21 @@ void mcs51_raise(mcs51_t* self, unsigned irq, unsigned sfr, uint8_t flag, uint64
     self->mem[sfr] |= flag;
 }
 
-/// Requests that are enabled and not held back by a handler in progress, by bit of IE; `high` tells those of high priority.
-static unsigned requests(const mcs51_t* self, unsigned* high)
+void mcs51_requests_change(mcs51_t* self)
 {
-    const uint8_t* const mem = self->mem;
-    const unsigned tcon = mem[TCON], ie = mem[IE];
-    if (!(ie & IE_EA) || (self->in_service & 2u))
-    {
-        return 0;
-    }
-    unsigned flags = (tcon >> 1 & 1u) | (tcon >> 4 & 2u) | (tcon >> 1 & 4u) | (tcon >> 4 & 8u);
-    flags |= mem[SCON] & (SCON_RI | SCON_TI) ? 16u : 0u;
-    flags |= mem[T2CON] && (mem[T2CON] & mcs51_t2_requests(self)) ? 32u : 0u;
-    flags &= ie & 0x3Fu;
-    if (!flags)
-    {
-        return 0;
-    }
-    *high = flags & mem[IP];
-    return self->in_service ? *high : flags;
+    const unsigned ie = self->mem[IE], above = self->in_service ? self->mem[IP] : 0xFFu;
+    const unsigned able = (ie & IE_EA) && !(self->in_service & 2u) ? ie & above : 0u;
+    self->ask_tcon = (uint8_t)((able & 5u) << 1 | (able & 10u) << 4);
+    self->ask_scon = able & 1u << IRQ_SERIAL ? SCON_RI | SCON_TI : 0u;
+    self->ask_t2con = able & 1u << IRQ_T2 ? mcs51_t2_requests(self) : 0u;
 }
 
-uint64_t mcs51_interrupt_next(mcs51_t* self, uint64_t now)
+/// By bit of IE.
+static unsigned requests(const mcs51_t* self)
 {
-    unsigned high;
-    return requests(self, &high) ? now + 1u : MCS51_NEVER;
+    const unsigned tcon = self->mem[TCON] & self->ask_tcon;
+    return (tcon >> 1 & 5u) | (tcon >> 4 & 10u) | (self->mem[SCON] & self->ask_scon ? 1u << IRQ_SERIAL : 0u) |
+           (self->mem[T2CON] & self->ask_t2con ? 1u << IRQ_T2 : 0u);
 }
 
 static void push(mcs51_t* self, unsigned octet)
@@ -57,31 +47,27 @@ static void push(mcs51_t* self, unsigned octet)
     mcs51_seen(self, MCS51_IRAM, at, (uint8_t)octet, true);
 }
 
-bool mcs51_interrupt(mcs51_t* self, uint64_t now, uint64_t* next)
+bool mcs51_interrupt(mcs51_t* self, uint64_t now)
 {
-    unsigned high = 0, due = requests(self, &high);
-    *next = due ? now + 1u : MCS51_NEVER;
-    if (!due || self->gate_at >= now)
+    unsigned due = self->gate_at < now ? requests(self) : 0u;
+    for (unsigned i = 0; due >> i; ++i)
     {
-        return false;
-    }
-    for (unsigned i = 0; i < IRQ_COUNT; ++i)
-    {
-        if (self->flag_at[i] >= now)
-        {
-            due &= ~(1u << i);
-        }
+        due &= self->flag_at[i] < now ? UINT32_MAX : ~(1u << i);
     }
     if (!due)
     {
         return false;
     }
-    const bool is_high = (due & high) != 0;
-    const unsigned candidates = is_high ? due & high : due;
+    const unsigned high = due & self->mem[IP], candidates = high ? high : due;
     unsigned irq = 0;
     while (!(candidates >> irq & 1u))
     {
         ++irq;
+    }
+    if (irq == IRQ_T0 || irq == IRQ_T1) // what has overflowed meanwhile is the same request
+    {
+        mcs51_timer_sync(self, 0, now); // it has TF1 in mode 3
+        mcs51_timer_sync(self, 1, now);
     }
     // The vector clears the flag, except those of the serial port and timer 2 and a level-triggered external one.
     static const uint8_t cleared[IRQ_COUNT] = {0x02, 0x20, 0x08, 0x80, 0, 0};
@@ -91,7 +77,8 @@ bool mcs51_interrupt(mcs51_t* self, uint64_t now, uint64_t* next)
         self->mem[TCON] &= (uint8_t)~cleared[irq];
     }
     self->overflow_known = false;
-    self->in_service |= is_high ? 2u : 1u;
+    self->in_service |= high ? 2u : 1u;
+    mcs51_requests_change(self);
     self->mem[PCON] &= (uint8_t)~PCON_IDL;
     if (self->observer.vector)
     {
@@ -110,5 +97,9 @@ void mcs51_reti(mcs51_t* self)
     const uint64_t now = mcs51_now(self);
     self->in_service &= self->in_service & 2u ? 1u : 0u;
     self->gate_at = now;
-    mcs51_look_at(self, mcs51_interrupt_next(self, now));
+    mcs51_requests_change(self);
+    if (mcs51_requested(self))
+    {
+        mcs51_look_at(self, now + 1u);
+    }
 }

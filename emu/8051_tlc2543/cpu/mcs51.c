@@ -53,6 +53,11 @@ void mcs51_report(mcs51_t* self, emu_report_kind_t kind, uint32_t once, const ch
     }
 }
 
+static uint64_t earlier(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
 uint64_t mcs51_cycle(const mcs51_t* self)
 {
     return mcs51_now(self);
@@ -88,21 +93,20 @@ void mcs51_shorten(mcs51_t* self, uint64_t cycle)
     if (cycle < self->until)
     {
         self->until = cycle;
+        self->attend_at = earlier(self->attend_at, cycle);
         mcs51_look_at(self, cycle);
     }
 }
 
-static uint64_t earlier(uint64_t a, uint64_t b)
+/// First boundary after this one at which an interrupt is to be looked at.
+static uint64_t request_after(const mcs51_t* self, uint64_t now)
 {
-    return a < b ? a : b;
+    return mcs51_requested(self) ? now + 1u : MCS51_NEVER;
 }
 
-/// request: boundary at which an interrupt is to be looked at.
 static void set_horizon(mcs51_t* self, uint64_t now, uint64_t request)
 {
-    uint64_t next = earlier(self->until, now + LONGEST_SLICE);
-    next = earlier(next, request);
-    next = earlier(next, earlier(self->periph_at, earlier(self->wdt_due, self->rst_due)));
+    uint64_t next = earlier(earlier(self->attend_at, now + LONGEST_SLICE), earlier(request, self->periph_at));
     next = earlier(next, self->overflow_known ? self->overflow_boundary : mcs51_overflow_next(self));
     self->horizon = (next > now ? next : now) - 1u;
     self->instructions += (uint32_t)self->budget;
@@ -117,14 +121,17 @@ void mcs51_look_ahead(mcs51_t* self, uint64_t now)
     }
     else
     {
-        set_horizon(self, now, mcs51_interrupt_next(self, now));
+        set_horizon(self, now, request_after(self, now));
     }
 }
 
 /// The oscillator stands still: nothing counts for that long.
 static void freeze(mcs51_t* self, uint64_t now, uint64_t until)
 {
-    self->timer_at += until - now;
+    for (unsigned n = 0; n < TIMERS; ++n)
+    {
+        self->timer_at[n] += until - now;
+    }
     self->overflow_known = false;
     self->frozen += until - now;
     self->wdt_due += self->wdt_due == MCS51_NEVER ? 0 : until - now;
@@ -134,58 +141,89 @@ static void freeze(mcs51_t* self, uint64_t now, uint64_t until)
     mcs51_plan(self);
 }
 
+/// What the run loop does next.
+typedef enum step_t
+{
+    GO_ON, ///< execute
+    AGAIN, ///< look at everything once more
+    LEAVE  ///< return *stop
+} step_t;
+
+/// What comes before the events that are due.
+static step_t attend_first(mcs51_t* self, uint64_t now, mcs51_stop_t* stop)
+{
+    if ((self->reset_request != RESET_NONE || self->rst_due <= now) && mcs51_reset_due(self, earlier(now, self->until)))
+    {
+        return AGAIN;
+    }
+    if (!(self->mem[PCON] & PCON_PD) || self->stop)
+    {
+        return GO_ON;
+    }
+    if (now < self->until)
+    {
+        freeze(self, now, self->until);
+    }
+    *stop = MCS51_POWER_DOWN;
+    return LEAVE;
+}
+
+/// What comes after them.
+static step_t attend(mcs51_t* self, uint64_t now, mcs51_stop_t* stop)
+{
+    if (self->stop)
+    {
+        self->stop = false;
+        *stop = MCS51_STOPPED;
+        return LEAVE;
+    }
+    if (now >= self->until)
+    {
+        *stop = self->halted ? MCS51_HALTED : MCS51_RAN;
+        return LEAVE;
+    }
+    self->attend_at = earlier(self->until, earlier(self->wdt_due, self->rst_due));
+    if (self->in_reset)
+    {
+        set_horizon(self, now, MCS51_NEVER);
+        mcs51_set_left(self, -1);
+        self->attend_at = 0;
+        return AGAIN;
+    }
+    if (now >= self->wdt_due)
+    {
+        mcs51_watchdog_reset(self);
+        return AGAIN;
+    }
+    if (self->reset_request != RESET_NONE)
+    {
+        self->attend_at = 0;
+    }
+    return GO_ON;
+}
+
 static mcs51_stop_t run(mcs51_t* self)
 {
+    mcs51_stop_t stop = MCS51_RAN;
     for (;; ++self->passes)
     {
-        const uint64_t now = mcs51_now(self);
-        if ((self->reset_request != RESET_NONE || self->rst_due <= now) &&
-            mcs51_reset_due(self, earlier(now, self->until)))
+        const uint64_t now = mcs51_now(self), limit = earlier(now, self->until);
+        step_t step = now >= self->attend_at ? attend_first(self, now, &stop) : GO_ON;
+        if (step == GO_ON)
+        {
+            mcs51_sync(self, limit);
+            mcs51_overflows(self, limit);
+            step = now >= self->attend_at ? attend(self, now, &stop) : GO_ON;
+        }
+        if (step == LEAVE)
+        {
+            return stop;
+        }
+        if (step == AGAIN || (mcs51_requested(self) && mcs51_interrupt(self, now)))
         {
             continue;
         }
-        if ((self->mem[PCON] & PCON_PD) && !self->stop)
-        {
-            if (now < self->until)
-            {
-                freeze(self, now, self->until);
-            }
-            return MCS51_POWER_DOWN;
-        }
-        const uint64_t limit = earlier(now, self->until);
-        mcs51_sync(self, limit);
-        if (limit >= self->overflow_at)
-        {
-            mcs51_timers_sync(self, limit);
-            self->overflow_at = MCS51_NEVER;
-            self->overflow_known = false;
-        }
-        if (self->stop)
-        {
-            self->stop = false;
-            return MCS51_STOPPED;
-        }
-        if (now >= self->until)
-        {
-            return self->halted ? MCS51_HALTED : MCS51_RAN;
-        }
-        if (self->in_reset)
-        {
-            set_horizon(self, now, MCS51_NEVER);
-            mcs51_set_left(self, -1);
-            continue;
-        }
-        if (now >= self->wdt_due)
-        {
-            mcs51_watchdog_reset(self);
-            continue;
-        }
-        uint64_t request;
-        if (mcs51_interrupt(self, now, &request))
-        {
-            continue;
-        }
-        set_horizon(self, now, request);
+        set_horizon(self, now, request_after(self, now));
         if (self->mem[PCON] & PCON_IDL)
         {
             if ((self->mem[AUXR] & AUXR_WDIDLE) && self->wdt_due != MCS51_NEVER)
@@ -221,6 +259,7 @@ static mcs51_stop_t run(mcs51_t* self)
 mcs51_stop_t mcs51_run(mcs51_t* self, uint64_t until_cycle)
 {
     self->until = until_cycle;
+    self->attend_at = 0;
     self->running = true;
     self->overflow_known = false;
     const mcs51_stop_t stop = run(self);

@@ -73,11 +73,16 @@ void mcs51_look_at(mcs51_t* self, uint64_t cycle);
 /// Find the horizon anew, after anything that can move it, at the end of an instruction.
 void mcs51_look_ahead(mcs51_t* self, uint64_t now);
 void mcs51_reti(mcs51_t* self);
+/// Find anew which flags can request an interrupt: after a change of IE, IP, what is in service, or the mode of timer 2.
+void mcs51_requests_change(mcs51_t* self);
+/// An interrupt is requested that the handler in progress does not hold back.
+static inline bool mcs51_requested(const mcs51_t* self)
+{
+    return ((self->mem[TCON] & self->ask_tcon) | (self->mem[SCON] & self->ask_scon) |
+            (self->mem[T2CON] & self->ask_t2con)) != 0;
+}
 /// Take the request that is due at this boundary. \return whether one was taken (two cycles passed).
-/// If none, *next is mcs51_interrupt_next().
-bool mcs51_interrupt(mcs51_t* self, uint64_t now, uint64_t* next);
-/// First boundary at which a request can be taken that cannot be taken now, or MCS51_NEVER.
-uint64_t mcs51_interrupt_next(mcs51_t* self, uint64_t now);
+bool mcs51_interrupt(mcs51_t* self, uint64_t now);
 void mcs51_raise(mcs51_t* self, unsigned irq, unsigned sfr, uint8_t flag, uint64_t at);
 
 /// Fire what ports and UART do by themselves, up to and with cycle t. Timers are brought up to date apart, where they matter.
@@ -101,16 +106,19 @@ static inline void mcs51_before_write(mcs51_t* self, uint64_t now)
 /// Find periph_at anew, after anything that can move it.
 void mcs51_plan(mcs51_t* self);
 
+void mcs51_timer_sync(mcs51_t* self, unsigned n, uint64_t t); ///< timer 0 (with TH0 in mode 3) or 1
 void mcs51_timers_sync(mcs51_t* self, uint64_t t);
+void mcs51_timers_mode(mcs51_t* self);               ///< TCON, TMOD or a gate has changed
 void mcs51_timers_fell(mcs51_t* self, uint8_t fell); ///< falls on T0, T1 were sampled
 /// First boundary that an overflow which requests an interrupt can bring; overflow_at becomes the cycle of the overflow.
 uint64_t mcs51_overflow_next(mcs51_t* self);
+void mcs51_overflows(mcs51_t* self, uint64_t t);            ///< fire what of those is due
 uint64_t mcs51_timer_next(const mcs51_t* self, unsigned n); ///< next overflow that sets TFn
 /// \return overflows within k counts; the first is after *first.
 uint64_t mcs51_advance(mcs51_counter_t* c, uint64_t k, uint64_t* first);
 uint64_t mcs51_t1_time(const mcs51_t* self, uint64_t number); ///< cycle of T1's overflow of that number
 
-void mcs51_t2_sync(mcs51_t* self, uint64_t from, uint64_t cycles);
+void mcs51_t2_sync(mcs51_t* self, uint64_t t);
 uint8_t mcs51_t2_requests(const mcs51_t* self); ///< flags of T2CON that request an interrupt
 uint64_t mcs51_t2_next(const mcs51_t* self);    ///< next overflow that sets TF2
 uint64_t mcs51_t2_time(const mcs51_t* self, uint64_t number);
@@ -129,11 +137,11 @@ void mcs51_uart_reset(mcs51_t* self);
 uint64_t mcs51_uart_tx_time(const mcs51_t* self);
 uint64_t mcs51_uart_rx_time(const mcs51_t* self);
 void mcs51_uart_tx(mcs51_t* self, uint64_t at);
-void mcs51_uart_clock_changes(mcs51_t* self); ///< PCON or T2CON is about to be written; the timers are synced
+void mcs51_uart_clock_changes(mcs51_t* self, uint64_t now); ///< PCON or T2CON is about to be written
 void mcs51_uart_rx(mcs51_t* self, uint64_t at);
-void mcs51_uart_rxd_fell(mcs51_t* self);
+void mcs51_uart_rxd_fell(mcs51_t* self, uint64_t at);
 void mcs51_uart_sbuf(mcs51_t* self, uint8_t value, uint64_t now);
 void mcs51_uart_scon(mcs51_t* self, uint8_t old, uint64_t now);
-void mcs51_uart_t2con(mcs51_t* self, uint8_t old); ///< RCLK or TCLK may have changed
+void mcs51_uart_t2con(mcs51_t* self, uint8_t old, uint64_t at); ///< RCLK or TCLK may have changed
 
 #endif // MCS51_INTERNAL_H_INCLUDED

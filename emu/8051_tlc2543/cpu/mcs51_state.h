@@ -21,6 +21,12 @@ enum
     IRQ_COUNT
 };
 
+enum
+{
+    TIMERS = 3,
+    COUNTING_TH0 = 0x80 ///< in mode 3 of timer 0, by itself
+};
+
 typedef struct mcs51_part_info_t
 {
     uint32_t flash_octets, ram_octets;
@@ -88,15 +94,19 @@ struct mcs51_t
     bool in_reset; ///< RST is held high
     mcs51_reset_t reset_request;
     uint64_t reset_seed;
-    uint64_t rst_due;            ///< cycle at which RST has been high long enough
-    uint64_t flag_at[IRQ_COUNT]; ///< cycle in which the request flag went up: polled in the next one
-    uint64_t gate_at;            ///< end of the last RETI or write to IE or IP: no vector at this boundary
-    uint64_t timer_at;           ///< TL0 TH0 TL1 TH1 are true at this cycle
+    uint64_t rst_due;                      ///< cycle at which RST has been high long enough
+    uint64_t flag_at[IRQ_COUNT];           ///< cycle in which the request flag went up: polled in the next one
+    uint64_t gate_at;                      ///< end of the last RETI or write to IE or IP: no vector at this boundary
+    uint64_t timer_at[TIMERS];             ///< TL and TH of each are true at this cycle
+    uint8_t counting;                      ///< timers that count cycles, by number, and COUNTING_TH0
+    uint8_t ask_tcon, ask_scon, ask_t2con; ///< flags there that request an interrupt which could be taken
     uint64_t t1_overflows, t2_overflows;
     uint64_t t2_told;           ///< overflows of timer 2 that the clock on P1.0 shows
     uint64_t overflow_at;       ///< next overflow that requests an interrupt
     uint64_t overflow_boundary; ///< boundary at which it is looked at
     bool overflow_known;        ///< nothing has moved them since
+    uint64_t
+        attend_at; ///< cycle at which the run loop looks at what is rare: `until`, resets, the watchdog; 0: at once
     uint64_t periph_at;         ///< next cycle at which the ports or the UART do something
     uint64_t tx_at, t2_edge_at; ///< of those, the transmitter's and the clock's on T2
     uint64_t frozen;            ///< cycles spent in power-down, in which no clock ran

@@ -17,6 +17,7 @@ static void reset(mcs51_t* self, bool power_on)
     const uint8_t pof = power_on ? PCON_POF : mem[PCON] & PCON_POF;
     const uint8_t received = mem[SBUF]; // SBUF is undefined after reset: kept
 
+    mcs51_timers_sync(self, now); // overflows so far are where the divider for the baud stands
     memset(mem + 0x80, 0, 0x80);
     mem[SP] = 0x07;
     mem[PCON] = pof;
@@ -33,7 +34,6 @@ static void reset(mcs51_t* self, bool power_on)
     self->passed_pc = NO_PC;
     self->self_jump = false;
     self->halted = false;
-    self->timer_at = now;
     self->overflow_at = MCS51_NEVER;
     self->overflow_known = false;
     self->gate_at = 0;
@@ -52,6 +52,8 @@ static void reset(mcs51_t* self, bool power_on)
     {
         mcs51_port_drive(self, i, now);
     }
+    mcs51_timers_mode(self);
+    mcs51_requests_change(self);
     mcs51_level_requests(self, now);
     mcs51_plan(self);
     mcs51_look_at(self, now);
@@ -61,6 +63,7 @@ static void request(mcs51_t* self, mcs51_reset_t kind, uint64_t seed)
 {
     self->reset_request = kind;
     self->reset_seed = seed;
+    self->attend_at = 0;
     if (self->running)
     {
         mcs51_look_at(self, mcs51_cycle(self));
@@ -87,6 +90,7 @@ void mcs51_hold_reset(mcs51_t* self, bool high)
     if (high && self->rst_due == MCS51_NEVER && !self->in_reset)
     {
         self->rst_due = self->mem[PCON] & PCON_PD ? now : now + RST_CYCLES;
+        self->attend_at = 0;
         mcs51_look_at(self, self->rst_due);
     }
     else if (!high)

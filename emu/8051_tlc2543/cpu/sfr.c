@@ -168,6 +168,7 @@ static void write_watchdog(mcs51_t* self, uint8_t value, uint64_t now)
     if (value == 0xE1u && self->wdt_armed)
     {
         self->wdt_due = now + MCS51_WDT_CYCLES;
+        self->attend_at = self->wdt_due < self->attend_at ? self->wdt_due : self->attend_at;
         mcs51_look_ahead(self, now);
     }
     self->wdt_armed = value == 0x1Eu;
@@ -183,15 +184,8 @@ static bool write_quiet(mcs51_t* self, unsigned address, uint8_t value, uint64_t
         self->mem[address] = value;
         self->gate_at = now;
         self->overflow_known = false;
+        mcs51_requests_change(self);
         mcs51_look_ahead(self, now);
-        return true;
-    case PCON:
-        if ((value ^ self->mem[PCON]) & (unsigned)~PCON_IDL)
-        {
-            return false;
-        }
-        self->mem[PCON] = value;
-        mcs51_look_at(self, now);
         return true;
     case PSW:
         self->mem[PSW] = value;
@@ -210,87 +204,120 @@ static bool write_quiet(mcs51_t* self, unsigned address, uint8_t value, uint64_t
     }
 }
 
-/// The horizon after a write: nearer where the register can only bring something nearer, else found anew.
-static void look_after_write(mcs51_t* self, unsigned address, uint64_t now)
+/// TL or TH of timer 0 or 1.
+static void write_count(mcs51_t* self, unsigned address, uint8_t value, uint64_t now)
 {
-    switch (address)
+    const unsigned n = address & 1u;
+    mcs51_timer_sync(self, n, now);
+    self->mem[address] = value;
+    self->overflow_known = false;
+    if (n == 1)
     {
-    case TL0:
-    case TH0:
-        mcs51_look_at(self, mcs51_overflow_next(self));
-        break;
-    case SBUF:
-        mcs51_plan(self);
-        mcs51_look_at(self, self->periph_at);
-        break;
-    case SCON:
-        mcs51_plan(self);
-        mcs51_look_at(self, self->periph_at);
-        mcs51_look_at(self, mcs51_interrupt_next(self, now));
-        break;
-    case PCON:
-        mcs51_plan(self);
-        mcs51_look_at(self, now);
-        break;
-    default:
         mcs51_plan(self);
         mcs51_look_ahead(self, now);
+    }
+    else
+    {
+        mcs51_look_at(self, mcs51_overflow_next(self));
+    }
+}
+
+static void write_serial(mcs51_t* self, unsigned address, uint8_t value, uint64_t now)
+{
+    const uint8_t old = self->mem[SCON];
+    if (address == SBUF) // mem holds the receive buffer
+    {
+        mcs51_uart_sbuf(self, value, now);
+    }
+    else
+    {
+        write_requests(self, SCON, value, now);
+        mcs51_uart_scon(self, old, now);
+    }
+    mcs51_plan(self);
+    mcs51_look_at(self, self->periph_at);
+    if (mcs51_requested(self))
+    {
+        mcs51_look_at(self, now + 1u);
+    }
+}
+
+static void write_power(mcs51_t* self, uint8_t value, uint64_t now)
+{
+    if ((value ^ self->mem[PCON]) & PCON_SMOD)
+    {
+        mcs51_uart_clock_changes(self, now);
+    }
+    self->mem[PCON] = value;
+    mcs51_plan(self);
+    self->attend_at = 0;
+    mcs51_look_at(self, now);
+}
+
+/// What decides how timers count: they have counted up to here with the old value.
+static void write_mode(mcs51_t* self, unsigned address, uint8_t value, uint64_t now)
+{
+    const uint8_t old = self->mem[address];
+    mcs51_timers_sync(self, now);
+    switch (address)
+    {
+    case TCON:
+        write_requests(self, address, value, now);
+        mcs51_level_requests(self, now);
+        break;
+    case T2CON:
+        mcs51_uart_clock_changes(self, now);
+        write_requests(self, address, value, now);
+        mcs51_t2_mode_changed(self, now);
+        mcs51_uart_t2con(self, old, now);
+        mcs51_requests_change(self);
+        break;
+    case T2MOD:
+        self->mem[address] = value;
+        mcs51_t2_mode_changed(self, now);
+        mcs51_requests_change(self);
+        break;
+    default: // TMOD, AUXR, those of timer 2
+        self->mem[address] = value;
         break;
     }
+    mcs51_timers_mode(self);
+    self->overflow_known = false;
+    mcs51_plan(self);
+    mcs51_look_ahead(self, now);
 }
 
 static void write_register(mcs51_t* self, unsigned address, uint8_t value)
 {
     const uint64_t now = mcs51_now(self);
-    uint8_t* const mem = self->mem;
     if (absent(self, address))
     {
         report_absent(self, address);
         return;
     }
     mcs51_before_write(self, now);
-    if (write_quiet(self, address, value, now))
-    {
-        return;
-    }
-    const uint8_t old = mem[address];
-    const bool mode = address == SCON && (value ^ old) >> 6;
-    if (address != SCON || mode)
-    {
-        mcs51_timers_sync(self, now);
-    }
-    if (address == PCON || address == T2CON)
-    {
-        mcs51_uart_clock_changes(self);
-    }
-    self->overflow_known = self->overflow_known && (address == SCON || address == SBUF);
     switch (address)
     {
-    case SBUF: // mem holds the receive buffer
-        mcs51_uart_sbuf(self, value, now);
-        break;
-    case TCON:
-        write_requests(self, address, value, now);
-        mcs51_level_requests(self, now);
+    case TL0:
+    case TH0:
+    case TL1:
+    case TH1:
+        write_count(self, address, value, now);
         break;
     case SCON:
-        write_requests(self, address, value, now);
-        mcs51_uart_scon(self, old, now);
+    case SBUF:
+        write_serial(self, address, value, now);
         break;
-    case T2CON:
-        write_requests(self, address, value, now);
-        mcs51_t2_mode_changed(self, now);
-        mcs51_uart_t2con(self, old);
+    case PCON:
+        write_power(self, value, now);
         break;
-    case T2MOD:
-        mem[address] = value;
-        mcs51_t2_mode_changed(self, now);
-        break;
-    default: // timers, PCON, AUXR: what counts has counted up to here with the old value
-        mem[address] = value;
+    default:
+        if (!write_quiet(self, address, value, now))
+        {
+            write_mode(self, address, value, now);
+        }
         break;
     }
-    look_after_write(self, address, now);
 }
 
 void mcs51_write(mcs51_t* self, unsigned address, uint8_t value)

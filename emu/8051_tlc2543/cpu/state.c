@@ -6,7 +6,7 @@
 #include "engine.h"
 #include <string.h>
 
-#define VERSION     1
+#define VERSION     2
 #define FRAME_BITS  11u
 #define SAMPLES     3u
 #define SHIFT_BITS  8u
@@ -74,7 +74,9 @@ static void instants(mcs51_t* self, emu_state_t* io)
                                 &self->until,
                                 &self->interrupts,
                                 &self->gate_at,
-                                &self->timer_at,
+                                &self->timer_at[0],
+                                &self->timer_at[1],
+                                &self->timer_at[2],
                                 &self->t1_overflows,
                                 &self->t2_overflows,
                                 &self->t2_told,
@@ -168,6 +170,8 @@ void mcs51_state(mcs51_t* self, emu_state_t* io)
     pins_and_uart(self, io);
     if (emu_state_loading(io) && !io->bad)
     {
+        mcs51_timers_mode(self);
+        mcs51_requests_change(self);
         mcs51_plan(self);
         self->overflow_known = false;
         emu_state_check(io, mcs51_cycle(self) < OVERDUE || self->periph_at >= mcs51_cycle(self) - OVERDUE);

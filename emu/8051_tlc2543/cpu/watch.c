@@ -20,6 +20,7 @@ void mcs51_observe(mcs51_t* self, const mcs51_observer_t* observer)
 void mcs51_stop(mcs51_t* self)
 {
     self->stop = true;
+    self->attend_at = 0;
     mcs51_look_at(self, mcs51_cycle(self));
 }
 
@@ -77,11 +78,13 @@ bool mcs51_enter(mcs51_t* self)
     {
         self->passed_pc = pc;
         self->stop = true;
+        self->attend_at = 0;
         return false;
     }
     if (self->observer.step && !self->observer.step(self->observer.ctx, pc, mcs51_cycle(self)))
     {
         self->stop = true;
+        self->attend_at = 0;
         return false;
     }
     self->passed_pc = NO_PC;
@@ -90,12 +93,4 @@ bool mcs51_enter(mcs51_t* self)
         self->marks[pc] |= MARK_COVERED;
     }
     return true;
-}
-
-void mcs51_seen(mcs51_t* self, mcs51_space_t space, uint16_t address, uint8_t value, bool write)
-{
-    if (self->observer.access)
-    {
-        self->observer.access(self->observer.ctx, space, address, value, write, mcs51_cycle(self));
-    }
 }

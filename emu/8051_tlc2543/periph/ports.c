@@ -104,6 +104,7 @@ void mcs51_pins_sample(mcs51_t* self, uint64_t at)
     self->pins_due = MCS51_NEVER;
     self->overflow_known = false;
     self->p3_sampled = pins;
+    mcs51_timers_mode(self);
     for (unsigned n = 0; n < 2; ++n)
     {
         if (((unsigned)fell >> (2 + n) & 1u) && ((unsigned)self->mem[TCON] >> 2 * n & 1u))
@@ -115,7 +116,7 @@ void mcs51_pins_sample(mcs51_t* self, uint64_t at)
     mcs51_timers_fell(self, fell);
     if (fell & P3_RXD)
     {
-        mcs51_uart_rxd_fell(self);
+        mcs51_uart_rxd_fell(self, at);
     }
     if (self->p1_watched)
     {

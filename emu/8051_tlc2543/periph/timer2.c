@@ -95,11 +95,16 @@ static unsigned rate(const mcs51_t* self)
     return mode(self) == CLOCK ? COUNTS_PER_CYCLE : 1u;
 }
 
-void mcs51_t2_sync(mcs51_t* self, uint64_t from, uint64_t cycles)
+void mcs51_t2_sync(mcs51_t* self, uint64_t t)
 {
-    if (counts_cycles(self))
+    const uint64_t from = self->timer_at[2];
+    if (t > from)
     {
-        count(self, rate(self) * cycles, from);
+        self->timer_at[2] = t;
+        if (counts_cycles(self))
+        {
+            count(self, rate(self) * (t - from), from);
+        }
     }
 }
 
@@ -110,14 +115,14 @@ uint8_t mcs51_t2_requests(const mcs51_t* self)
 
 uint64_t mcs51_t2_next(const mcs51_t* self)
 {
-    return counts_cycles(self) && mode(self) != CLOCK ? self->timer_at + counter(self).left : MCS51_NEVER;
+    return counts_cycles(self) && mode(self) != CLOCK ? self->timer_at[2] + counter(self).left : MCS51_NEVER;
 }
 
 uint64_t mcs51_t2_time(const mcs51_t* self, uint64_t number)
 {
     if (number <= self->t2_overflows)
     {
-        return self->timer_at;
+        return self->timer_at[2];
     }
     if (!counts_cycles(self))
     {
@@ -125,7 +130,7 @@ uint64_t mcs51_t2_time(const mcs51_t* self, uint64_t number)
     }
     const mcs51_counter_t c = counter(self);
     const uint64_t counts = c.left + (number - self->t2_overflows - 1u) * c.period;
-    return self->timer_at + (counts + rate(self) - 1u) / rate(self);
+    return self->timer_at[2] + (counts + rate(self) - 1u) / rate(self);
 }
 
 uint64_t mcs51_t2_edge_time(const mcs51_t* self)
@@ -135,7 +140,7 @@ uint64_t mcs51_t2_edge_time(const mcs51_t* self)
 
 void mcs51_t2_edge(mcs51_t* self, uint64_t at)
 {
-    mcs51_timers_sync(self, at);
+    mcs51_t2_sync(self, at);
     const bool high = self->alternate[1] & P1_T2, odd = (self->t2_overflows - self->t2_told) & 1u;
     self->t2_told = self->t2_overflows;
     mcs51_alternate(self, 1, P1_T2, high != odd, at);

@@ -35,7 +35,24 @@ static inline bool enabled(const mcs51_t* self, unsigned n)
 
 static inline bool counts_cycles(const mcs51_t* self, unsigned n)
 {
-    return !(self->mem[TMOD] >> 4 * n & TMOD_COUNTER) && enabled(self, n);
+    return (unsigned)self->counting >> n & 1u;
+}
+
+static inline bool th0_runs(const mcs51_t* self)
+{
+    return self->counting & COUNTING_TH0;
+}
+
+void mcs51_timers_mode(mcs51_t* self)
+{
+    self->counting = split(self) && (self->mem[TCON] & 0x40u) ? COUNTING_TH0 : 0;
+    for (unsigned n = 0; n < 2; ++n)
+    {
+        if (!(self->mem[TMOD] >> 4 * n & TMOD_COUNTER) && enabled(self, n))
+        {
+            self->counting |= (uint8_t)(1u << n);
+        }
+    }
 }
 
 static inline mcs51_counter_t counter(const mcs51_t* self, unsigned n)
@@ -124,31 +141,19 @@ static inline void count(mcs51_t* self, unsigned n, uint64_t k, uint64_t from)
     }
 }
 
-static bool th0_runs(const mcs51_t* self)
+void mcs51_timer_sync(mcs51_t* self, unsigned n, uint64_t t)
 {
-    return split(self) && (self->mem[TCON] & 0x40u);
-}
-
-void mcs51_timers_sync(mcs51_t* self, uint64_t t)
-{
-    if (t <= self->timer_at)
+    if (t <= self->timer_at[n])
     {
         return;
     }
-    const uint64_t from = self->timer_at, k = t - from;
-    self->timer_at = t;
-    for (unsigned n = 0; n < 2; ++n)
+    const uint64_t from = self->timer_at[n], k = t - from;
+    self->timer_at[n] = t;
+    if (counts_cycles(self, n))
     {
-        if (counts_cycles(self, n))
-        {
-            count(self, n, k, from);
-        }
+        count(self, n, k, from);
     }
-    if (self->mem[T2CON])
-    {
-        mcs51_t2_sync(self, from, k);
-    }
-    if (th0_runs(self))
+    if (n == 0 && th0_runs(self))
     {
         mcs51_counter_t c = {0x100u - self->mem[TH0], 0x100u};
         uint64_t first;
@@ -160,13 +165,20 @@ void mcs51_timers_sync(mcs51_t* self, uint64_t t)
     }
 }
 
+void mcs51_timers_sync(mcs51_t* self, uint64_t t)
+{
+    mcs51_timer_sync(self, 0, t);
+    mcs51_timer_sync(self, 1, t);
+    mcs51_t2_sync(self, t);
+}
+
 void mcs51_timers_fell(mcs51_t* self, uint8_t fell)
 {
     for (unsigned n = 0; n < 2; ++n)
     {
         if (((unsigned)fell >> (4 + n) & 1u) && enabled(self, n) && !counts_cycles(self, n))
         {
-            count(self, n, 1, self->timer_at - 1u);
+            count(self, n, 1, self->timer_at[n] - 1u);
         }
     }
 }
@@ -175,9 +187,9 @@ uint64_t mcs51_timer_next(const mcs51_t* self, unsigned n)
 {
     if (n == 1 && split(self))
     {
-        return th0_runs(self) ? self->timer_at + 0x100u - self->mem[TH0] : MCS51_NEVER;
+        return th0_runs(self) ? self->timer_at[0] + 0x100u - self->mem[TH0] : MCS51_NEVER;
     }
-    return counts_cycles(self, n) ? self->timer_at + counter(self, n).left : MCS51_NEVER;
+    return counts_cycles(self, n) ? self->timer_at[n] + counter(self, n).left : MCS51_NEVER;
 }
 
 uint64_t mcs51_overflow_next(mcs51_t* self)
@@ -206,16 +218,26 @@ uint64_t mcs51_overflow_next(mcs51_t* self)
     return boundary;
 }
 
+void mcs51_overflows(mcs51_t* self, uint64_t t)
+{
+    if (t >= self->overflow_at)
+    {
+        mcs51_timers_sync(self, t);
+        self->overflow_at = MCS51_NEVER;
+        self->overflow_known = false;
+    }
+}
+
 uint64_t mcs51_t1_time(const mcs51_t* self, uint64_t number)
 {
     if (number <= self->t1_overflows)
     {
-        return self->timer_at;
+        return self->timer_at[1];
     }
     if (!counts_cycles(self, 1))
     {
         return MCS51_NEVER;
     }
     const mcs51_counter_t c = counter(self, 1);
-    return self->timer_at + c.left + (number - self->t1_overflows - 1u) * c.period;
+    return self->timer_at[1] + c.left + (number - self->t1_overflows - 1u) * c.period;
 }

@@ -31,18 +31,27 @@ static unsigned unit(const mcs51_t* self, unsigned clock)
     return (self->mem[PCON] & PCON_SMOD) || by_t2(self, clock) ? 1u : 2u;
 }
 
-/// Tick number at the cycle the timers are synced to.
-static uint64_t tick(const mcs51_t* self, bool t2)
+/// Tick number at a cycle.
+static uint64_t tick(mcs51_t* self, bool t2, uint64_t at)
 {
-    const uint64_t cycle = self->timer_at - self->frozen;
-    return uart_mode(self) == 2 ? TICKS_PER_CYCLE * cycle : t2 ? self->t2_overflows : self->t1_overflows;
+    if (uart_mode(self) == 2)
+    {
+        return TICKS_PER_CYCLE * (at - self->frozen);
+    }
+    if (t2)
+    {
+        mcs51_t2_sync(self, at);
+        return self->t2_overflows;
+    }
+    mcs51_timer_sync(self, 1, at);
+    return self->t1_overflows;
 }
 
-/// First multiple of n/16 bit after now.
-static uint64_t rollover(const mcs51_t* self, unsigned clock, unsigned n)
+/// First multiple of n/16 bit after a cycle.
+static uint64_t rollover(mcs51_t* self, unsigned clock, unsigned n, uint64_t at)
 {
     n *= unit(self, clock);
-    return (tick(self, by_t2(self, clock)) / n + 1u) * n;
+    return (tick(self, by_t2(self, clock), at) / n + 1u) * n;
 }
 
 static uint64_t cycle_of(const mcs51_t* self, unsigned clock, uint64_t due)
@@ -84,11 +93,11 @@ static void tx_pass(mcs51_t* self, unsigned bits)
     self->uart.tx_due += (uint64_t)bits * 16u * unit(self, T2CON_TCLK);
 }
 
-void mcs51_uart_clock_changes(mcs51_t* self)
+void mcs51_uart_clock_changes(mcs51_t* self, uint64_t now)
 {
     uart_t* const u = &self->uart;
     for (unsigned n = u->tx_due == MCS51_NEVER ? 0 : tx_quiet_bits(self);
-         n > 0 && u->tx_due <= tick(self, by_t2(self, T2CON_TCLK)); --n)
+         n > 0 && u->tx_due <= tick(self, by_t2(self, T2CON_TCLK), now); --n)
     {
         tx_pass(self, 1);
     }
@@ -137,7 +146,7 @@ void mcs51_uart_sbuf(mcs51_t* self, uint8_t value, uint64_t now)
     const unsigned ninth = mode == 1 ? 1u : (unsigned)self->mem[SCON] / SCON_TB8 & 1u;
     u->tx_frame = 1u << 10 | ninth << 9 | (unsigned)value << 1;
     u->tx_bits = mode == 1 ? 10 : 11;
-    u->tx_due = rollover(self, T2CON_TCLK, 16u);
+    u->tx_due = rollover(self, T2CON_TCLK, 16u, now);
 }
 
 /// Mode 0: one bit a cycle; the shift clock falls and rises within it, RXD is driven or sampled in between.
@@ -214,13 +223,13 @@ static void shift_in(mcs51_t* self, uint64_t at)
     mcs51_alternate(self, 3, P3_TXD, true, at);
 }
 
-void mcs51_uart_rxd_fell(mcs51_t* self)
+void mcs51_uart_rxd_fell(mcs51_t* self, uint64_t at)
 {
     uart_t* const u = &self->uart;
     if (u->rx_state == RX_IDLE && uart_mode(self) != 0 && (self->mem[SCON] & SCON_REN))
     {
         u->rx_state = RX_WATCH;
-        u->rx_due = rollover(self, T2CON_RCLK, 1u);
+        u->rx_due = rollover(self, T2CON_RCLK, 1u, at);
     }
 }
 
@@ -315,23 +324,23 @@ void mcs51_uart_scon(mcs51_t* self, uint8_t old, uint64_t now)
 }
 
 /// [U] A frame under way goes on with as many ticks of the new clock as it had left of the old.
-static void change_clock(mcs51_t* self, uint64_t* due, bool t2)
+static void change_clock(mcs51_t* self, uint64_t* due, bool t2, uint64_t at)
 {
     if (*due != MCS51_NEVER && (uart_mode(self) & 1u))
     {
-        *due += tick(self, t2) - tick(self, !t2);
+        *due += tick(self, t2, at) - tick(self, !t2, at);
     }
 }
 
-void mcs51_uart_t2con(mcs51_t* self, uint8_t old)
+void mcs51_uart_t2con(mcs51_t* self, uint8_t old, uint64_t at)
 {
     const uint8_t now = self->mem[T2CON], changed = now ^ old;
     if (changed & T2CON_TCLK)
     {
-        change_clock(self, &self->uart.tx_due, now & T2CON_TCLK);
+        change_clock(self, &self->uart.tx_due, now & T2CON_TCLK, at);
     }
     if (changed & T2CON_RCLK)
     {
-        change_clock(self, &self->uart.rx_due, now & T2CON_RCLK);
+        change_clock(self, &self->uart.rx_due, now & T2CON_RCLK, at);
     }
 }

@@ -168,6 +168,26 @@ TEST(interrupts, edge_triggers_once_and_the_vector_clears_the_flag)
     EXPECT_EQ(b.ram(0x30), 2);
 }
 
+/// A request stays one, however often its timer overflows before the vector is taken.
+TEST(interrupts, the_vector_clears_what_overflowed_meanwhile)
+{
+    constexpr int PERIOD = 256;
+    bare_cpu b;
+    b.load(INT0, {0x7F, 0x00, 0xDF, 0xFE, 0x32}); // MOV R7,#0; DJNZ R7,$; RETI: 512 cycles
+    b.load(T0, {0x05, 0x30, 0x32});               // INC 30h; RETI
+    b.load(0x100, {0x80, 0xFE});
+    mcs51_set_pc(b.cpu, 0x100);
+    b.set(sfr::TMOD, 0x02);
+    b.set(sfr::IE, 0x83);
+    b.set(sfr::TCON, 0x13);
+    b.run(PERIOD + 20);
+    ASSERT_EQ(b.ram(0x30), 0); // held back by the handler of INT0
+    b.run(3 * PERIOD - 20);
+    EXPECT_EQ(b.ram(0x30), 1);
+    b.run(3 * PERIOD + 20);
+    EXPECT_EQ(b.ram(0x30), 2);
+}
+
 TEST(interrupts, level_repeats_while_low)
 {
     bare_cpu b;
