@@ -23,7 +23,7 @@
 extern "C" {
 #endif
 
-#define F2812_VECTORS      128 ///< entries of the PIE vector table: entry n is at 0D00 + 2 n
+#define F2812_VECTORS      128u ///< entries of the PIE vector table: entry n is at 0D00 + 2 n
 #define F2812_VECTOR_RESET 0
 #define F2812_VECTOR_INT13 13
 #define F2812_VECTOR_INT14 14

@@ -13,6 +13,8 @@ extern "C" {
 EMU_API const char* f2812_register_name(uint16_t address);
 /// \return word address, or -1.
 EMU_API int f2812_register_address(const char* name);
+/// Name of an entry of the PIE vector table, as "SCIRXINTA" of 96. \return NULL for a reserved one.
+EMU_API const char* f2812_vector_name(unsigned vector);
 
 #ifdef __cplusplus
 }
