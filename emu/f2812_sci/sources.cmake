@@ -14,4 +14,10 @@ set(F2812_SOURCES
   periph/timers.c
   periph/watchdog.c
   periph/xint.c
+  sci/sci.c
+  sci/sci_auto.c
+  sci/sci_clock.c
+  sci/sci_rx.c
+  sci/sci_tx.c
+  sci/sci_word.c
   wirelink/wirelink.c)

@@ -14,6 +14,18 @@ static const struct
     const char* values[VALUES];
 } switches[] = {
     {"clock_off", offsetof(f2812_switches_t, clock_off), {"drop", "take"}},
+    {"sci_start_count", offsetof(f2812_switches_t, sci_start_count), {"1", "0"}},
+    {"sci_break_bits", offsetof(f2812_switches_t, sci_break_bits), {"10", "9.625"}},
+    {"sci_break_hold", offsetof(f2812_switches_t, sci_break_hold), {"swreset", "off"}},
+    {"sci_rxffovf", offsetof(f2812_switches_t, sci_rxffovf), {"first", "newest"}},
+    {"sci_tx_load", offsetof(f2812_switches_t, sci_tx_load), {"write", "start"}},
+    {"sci_fftxdly", offsetof(f2812_switches_t, sci_fftxdly), {"255", "256"}},
+    {"sci_ffint", offsetof(f2812_switches_t, sci_ffint), {"level", "event"}},
+    {"sci_errors", offsetof(f2812_switches_t, sci_errors), {"swreset", "read"}},
+    {"sci_addr_erratum", offsetof(f2812_switches_t, sci_addr_erratum), {"on", "off"}},
+    {"sci_abd", offsetof(f2812_switches_t, sci_abd), {"blocks", "passes"}},
+    {"sci_loop_txd", offsetof(f2812_switches_t, sci_loop_txd), {"sends", "idle"}},
+    {"sci_loop_rxd", offsetof(f2812_switches_t, sci_loop_rxd), {"cut", "joined"}},
 };
 
 const char* f2812_switch_set(f2812_switches_t* self, const char* name, const char* value)
