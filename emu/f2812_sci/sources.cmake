@@ -10,6 +10,7 @@ set(F2812_SOURCES
   cpu/switches.c
   periph/clock.c
   periph/gpio.c
+  periph/serial.c
   periph/sysctl.c
   periph/timers.c
   periph/watchdog.c

@@ -46,7 +46,7 @@ static const struct
     [F2812_WATCHDOG] = {f2812_watchdog_peek, f2812_watchdog_write},
     [F2812_XINT] = {f2812_xint_peek, memory_write},
     [F2812_GPIO] = {f2812_gpio_peek, f2812_gpio_write},
-    [F2812_SCI] = {nobody_peek, nobody_write},
+    [F2812_SCI] = {f2812_serial_peek, f2812_serial_write},
 };
 
 void f2812_map_reset(f2812_t* self)
@@ -164,7 +164,8 @@ static uint16_t read_register(f2812_t* self, uint16_t address)
     uint16_t value = 0;
     if (!outside(self, address) && admit(self, address, false))
     {
-        value = units[self->map[address].reader].peek(self, address);
+        const unsigned unit = self->map[address].reader;
+        value = unit == F2812_SCI ? f2812_serial_read(self, address) : units[unit].peek(self, address);
     }
     if (self->observed)
     {

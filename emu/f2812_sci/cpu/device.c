@@ -95,6 +95,7 @@ void f2812_rate_changed(f2812_t* self)
     f2812_sysctl_plan(self);
     f2812_timers_plan(self);
     f2812_watchdog_plan(self);
+    f2812_serial_clock_changed(self);
     look_ahead(self);
 }
 
@@ -115,6 +116,7 @@ void f2812_reset(f2812_t* self, f2812_reset_t cause)
     f2812_timers_reset(self);
     f2812_watchdog_reset(self, cause);
     f2812_gpio_reset(self);
+    f2812_serial_reset(self);
     f2812_rate_changed(self);
     self->restart = true;
     f2812_update_pending(self);
@@ -155,6 +157,7 @@ f2812_t* f2812_create(const f2812_config_t* config, emu_sched_t* sched)
     f2812_watchdog_init(self);
     f2812_gpio_init(self);
     f2812_xint_init(self);
+    (void)f2812_serial_init(self); // nobody else is on the wires yet
     emu_wire_init(&self->xrs, "XRS", true);
     self->xrs_driver = emu_wire_add_driver(&self->xrs);
     emu_wire_drive(&self->xrs, self->xrs_driver, EMU_WEAK1, sched->now);

@@ -4,11 +4,13 @@
 #ifndef F2812_DEVICE_H_INCLUDED
 #define F2812_DEVICE_H_INCLUDED
 #include "../periph/clock.h"
+#include "../sci/sci.h"
 #include "emu_f2812/f2812.h"
 #include "map.h"
 
 #define F2812_TIMERS    3u
 #define F2812_XINTS     2u
+#define F2812_SCIS      2u
 #define F2812_PORTS     6u ///< A, B, D, E, F, G
 #define F2812_PORT_PINS 16u
 
@@ -39,6 +41,13 @@ typedef struct f2812_pin_t
     int driver;
 } f2812_pin_t;
 
+typedef struct f2812_serial_t
+{
+    struct f2812_t* device;
+    unsigned number; ///< 0: SCI-A
+    sci_t sci;
+} f2812_serial_t;
+
 struct f2812_t
 {
     emu_sched_t* sched;
@@ -65,6 +74,7 @@ struct f2812_t
     uint64_t xint_edge[F2812_XINTS]; ///< cycle of the last one
     uint16_t latch[F2812_PORTS];
     f2812_pin_t pin[F2812_PORTS][F2812_PORT_PINS];
+    f2812_serial_t serial[F2812_SCIS];
     emu_wire_t xrs;
     int xrs_driver;
 
@@ -136,6 +146,16 @@ void f2812_gpio_init(f2812_t* self);
 void f2812_gpio_reset(f2812_t* self);
 uint16_t f2812_gpio_peek(const f2812_t* self, uint16_t address);
 void f2812_gpio_write(f2812_t* self, uint16_t address, uint16_t value);
+
+/// periph/serial.c
+int f2812_serial_init(f2812_t* self); ///< 0; -1: a wire has no room
+void f2812_serial_reset(f2812_t* self);
+void f2812_serial_clocks(f2812_t* self);        ///< PCLKCR has come into force
+void f2812_serial_clock_changed(f2812_t* self); ///< LSPCLK has another rate
+void f2812_serial_pins(f2812_t* self);          ///< GPFMUX or GPGMUX was written
+uint16_t f2812_serial_read(f2812_t* self, uint16_t address);
+uint16_t f2812_serial_peek(const f2812_t* self, uint16_t address);
+void f2812_serial_write(f2812_t* self, uint16_t address, uint16_t value);
 
 /// periph/xint.c
 void f2812_xint_init(f2812_t* self);

@@ -102,6 +102,7 @@ void f2812_gpio_write(f2812_t* self, uint16_t address, uint16_t value)
     {
         self->mem[address] = value;
         drive(self, port_at((unsigned)address - GPIO_MUX));
+        f2812_serial_pins(self);
         return;
     }
     const unsigned offset = (unsigned)address - GPIO_DATA, port = port_at(offset);

@@ -39,6 +39,7 @@ static void clocks_change(void* ctx, emu_time_t at)
     (void)at;
     f2812_t* const self = ctx;
     self->clocks = self->mem[PCLKCR];
+    f2812_serial_clocks(self);
 }
 
 void f2812_sysctl_init(f2812_t* self)
@@ -112,6 +113,7 @@ void f2812_sysctl_write(f2812_t* self, uint16_t address, uint16_t value)
     if (address == LOSPCP)
     {
         divide(self);
+        f2812_rate_changed(self);
     }
     else
     {
