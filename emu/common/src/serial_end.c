@@ -159,7 +159,10 @@ bool emu_serial_end_set_baud(emu_serial_end_t* self, double baud)
     {
         return false;
     }
-    rx_catch_up(self, self->rx->level, self->sched->now);
+    if (self->rx_busy)
+    {
+        rx_catch_up(self, self->rx->level, self->sched->now);
+    }
     self->baud = baud;
     if (self->rx_busy)
     {
@@ -181,7 +184,7 @@ int emu_serial_end_init(emu_serial_end_t* self, emu_sched_t* sched, emu_wire_t* 
         .tx_event = {.fire = tx_bit_end, .ctx = self},
         .rx_event = {.fire = rx_end, .ctx = self},
     };
-    if (!(baud >= EMU_BAUD_MIN && baud <= EMU_BAUD_MAX) || emu_wire_watch(rx, rx_edge, self) != 0)
+    if (!(baud >= EMU_BAUD_MIN && baud <= EMU_BAUD_MAX) || (rx != NULL && emu_wire_watch(rx, rx_edge, self) != 0))
     {
         return -1;
     }
@@ -233,7 +236,7 @@ void emu_serial_end_state(emu_serial_end_t* self, emu_state_t* io)
     emu_event_state(self->sched, &self->rx_event, io);
     emu_state_check(io, self->tx_bit <= FRAME_BITS && self->rx_bit <= FRAME_BITS && self->rx_sample < SAMPLES);
     emu_state_check(io, self->tx_busy == self->tx_event.pending && self->rx_busy == self->rx_event.pending);
-    emu_state_check(io, self->tx != NULL || !self->tx_busy);
+    emu_state_check(io, (self->tx != NULL || !self->tx_busy) && (self->rx != NULL || !self->rx_busy));
     emu_state_check(io, emu_state_time(self->tx_start) && emu_state_time(self->rx_start));
     fifo_state(self, io);
     emu_state_u64(io, &self->octets_sent);

@@ -27,7 +27,7 @@ typedef struct emu_serial_end_t
 {
     emu_sched_t* sched;
     emu_wire_t* tx; ///< may be NULL: listen only
-    emu_wire_t* rx;
+    emu_wire_t* rx; ///< may be NULL: send only
     int tx_driver;
     double
         baud; ///< own clock; bit n of a frame ends at round((n + 1) * 1e12 / baud) ps; emu_serial_end_set_baud() changes it
