@@ -22,3 +22,10 @@ set(F2812_SOURCES
   sci/sci_tx.c
   sci/sci_word.c
   wirelink/wirelink.c)
+# Runs firmware that f2812-cc compiled on it.
+set(F2812_SHIM_SOURCES
+  shim/asm.c
+  shim/hooks.c
+  shim/shim.c
+  shim/tick.S
+  shim/wait.c)

@@ -90,6 +90,11 @@ uint64_t f2812_cycle(const f2812_t* self)
     return self->cycle;
 }
 
+uint64_t f2812_due(const f2812_t* self)
+{
+    return self->due;
+}
+
 void f2812_rate_changed(f2812_t* self)
 {
     f2812_sysctl_plan(self);

@@ -38,8 +38,6 @@ typedef struct f2812_program_t
     void (**vectors)(void); ///< PieVectTable: F2812_VECTORS entries; NULL: the firmware has none
 } f2812_program_t;
 
-#define F2812_VECTORS 128u
-
 typedef enum f2812_stop_t
 {
     F2812_REACHED, ///< the instant asked for
@@ -60,7 +58,7 @@ typedef struct f2812_shim_stats_t
 
 typedef struct f2812_shim_t f2812_shim_t;
 
-/// \param[in] report  where guest errors go; put may be NULL. \return NULL: no memory, or the program has a shim already.
+/// \param[in] report  where guest errors go; put may be NULL. \return NULL: no memory.
 EMU_API f2812_shim_t* f2812_shim_create(f2812_t* device, emu_sched_t* sched, const f2812_program_t* program,
                                         const emu_report_t* report);
 EMU_API void f2812_shim_destroy(f2812_shim_t* self);

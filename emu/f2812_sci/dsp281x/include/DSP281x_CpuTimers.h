@@ -58,20 +58,20 @@ extern struct CPUTIMER_VARS CpuTimer2;
 void InitCpuTimers(void);
 void ConfigCpuTimer(struct CPUTIMER_VARS* Timer, float Freq, float Period);
 
-#define StartCpuTimer0()           CpuTimer0Regs.TCR.bit.TSS = 0
-#define StopCpuTimer0()            CpuTimer0Regs.TCR.bit.TSS = 1
-#define ReloadCpuTimer0()          CpuTimer0Regs.TCR.bit.TRB = 1
-#define ReadCpuTimer0Counter()     CpuTimer0Regs.TIM.all
-#define ReadCpuTimer0Period()      CpuTimer0Regs.PRD.all
-#define StartCpuTimer1()           CpuTimer1Regs.TCR.bit.TSS = 0
-#define StopCpuTimer1()            CpuTimer1Regs.TCR.bit.TSS = 1
-#define ReloadCpuTimer1()          CpuTimer1Regs.TCR.bit.TRB = 1
-#define ReadCpuTimer1Counter()     CpuTimer1Regs.TIM.all
-#define ReadCpuTimer1Period()      CpuTimer1Regs.PRD.all
-#define StartCpuTimer2()           CpuTimer2Regs.TCR.bit.TSS = 0
-#define StopCpuTimer2()            CpuTimer2Regs.TCR.bit.TSS = 1
-#define ReloadCpuTimer2()          CpuTimer2Regs.TCR.bit.TRB = 1
-#define ReadCpuTimer2Counter()     CpuTimer2Regs.TIM.all
-#define ReadCpuTimer2Period()      CpuTimer2Regs.PRD.all
+#define StartCpuTimer0()       CpuTimer0Regs.TCR.bit.TSS = 0
+#define StopCpuTimer0()        CpuTimer0Regs.TCR.bit.TSS = 1
+#define ReloadCpuTimer0()      CpuTimer0Regs.TCR.bit.TRB = 1
+#define ReadCpuTimer0Counter() CpuTimer0Regs.TIM.all
+#define ReadCpuTimer0Period()  CpuTimer0Regs.PRD.all
+#define StartCpuTimer1()       CpuTimer1Regs.TCR.bit.TSS = 0
+#define StopCpuTimer1()        CpuTimer1Regs.TCR.bit.TSS = 1
+#define ReloadCpuTimer1()      CpuTimer1Regs.TCR.bit.TRB = 1
+#define ReadCpuTimer1Counter() CpuTimer1Regs.TIM.all
+#define ReadCpuTimer1Period()  CpuTimer1Regs.PRD.all
+#define StartCpuTimer2()       CpuTimer2Regs.TCR.bit.TSS = 0
+#define StopCpuTimer2()        CpuTimer2Regs.TCR.bit.TSS = 1
+#define ReloadCpuTimer2()      CpuTimer2Regs.TCR.bit.TRB = 1
+#define ReadCpuTimer2Counter() CpuTimer2Regs.TIM.all
+#define ReadCpuTimer2Period()  CpuTimer2Regs.PRD.all
 
 #endif // DSP281x_CPU_TIMERS_H

@@ -7,10 +7,10 @@
 #ifndef DSP281x_DEVICE_H
 #define DSP281x_DEVICE_H
 
-#define TARGET   1
-#define F2812    TARGET
-#define F2810    0
-#define DSP281x  TARGET
+#define TARGET         1
+#define F2812          TARGET
+#define F2810          0
+#define DSP281x        TARGET
 #define CPU_FRQ_150MHZ 1
 
 extern cregister volatile unsigned int IFR;
@@ -64,26 +64,26 @@ extern cregister volatile unsigned int IER;
 #endif
 
 /// A register of 16 bits with fields, from bit 0 up: union NAME_REG with .all and .bit, struct NAME_BITS.
-#define DSP281x_REG(NAME, ...)                                                                                                             \
-    struct NAME##_BITS                                                                                                                     \
-    {                                                                                                                                      \
-        Uint16 __VA_ARGS__;                                                                                                                \
-    };                                                                                                                                     \
-    union NAME##_REG                                                                                                                       \
-    {                                                                                                                                      \
-        Uint16 all;                                                                                                                        \
-        struct NAME##_BITS bit;                                                                                                            \
+#define DSP281x_REG(NAME, ...)                                                                                         \
+    struct NAME##_BITS                                                                                                 \
+    {                                                                                                                  \
+        Uint16 __VA_ARGS__;                                                                                            \
+    };                                                                                                                 \
+    union NAME##_REG                                                                                                   \
+    {                                                                                                                  \
+        Uint16 all;                                                                                                    \
+        struct NAME##_BITS bit;                                                                                        \
     }
 /// The same with 32 bits; fields are Uint16, so none lies across the middle.
-#define DSP281x_REG32(NAME, ...)                                                                                                           \
-    struct NAME##_BITS                                                                                                                     \
-    {                                                                                                                                      \
-        Uint16 __VA_ARGS__;                                                                                                                \
-    };                                                                                                                                     \
-    union NAME##_REG                                                                                                                       \
-    {                                                                                                                                      \
-        Uint32 all;                                                                                                                        \
-        struct NAME##_BITS bit;                                                                                                            \
+#define DSP281x_REG32(NAME, ...)                                                                                       \
+    struct NAME##_BITS                                                                                                 \
+    {                                                                                                                  \
+        Uint16 __VA_ARGS__;                                                                                            \
+    };                                                                                                                 \
+    union NAME##_REG                                                                                                   \
+    {                                                                                                                  \
+        Uint32 all;                                                                                                    \
+        struct NAME##_BITS bit;                                                                                        \
     }
 
 // clang-format off

@@ -10,6 +10,6 @@
 
 #include "DSP281x_GlobalPrototypes.h"
 
-#define DELAY_US(A) DSP28x_usDelay((Uint32)(((((long double)(A) * 1000.0L) / (long double)CPU_RATE) - 9.0L) / 5.0L))
+#define DELAY_US(A) DSP28x_usDelay((Uint32)(((((long double)(A)*1000.0L) / (long double)CPU_RATE) - 9.0L) / 5.0L))
 
 #endif // DSP281x_EXAMPLES_H

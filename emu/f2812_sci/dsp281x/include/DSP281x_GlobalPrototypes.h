@@ -4,7 +4,8 @@
 #ifndef DSP281x_GLOBALPROTOTYPES_H
 #define DSP281x_GLOBALPROTOTYPES_H
 
-void InitSysCtrl(void); ///< watchdog off, PLL x10/2, HSPCLK = SYSCLKOUT/2, LSPCLK = SYSCLKOUT/4, every peripheral's clock on
+void InitSysCtrl(
+    void); ///< watchdog off, PLL x10/2, HSPCLK = SYSCLKOUT/2, LSPCLK = SYSCLKOUT/4, every peripheral's clock on
 void InitPeripherals(void);
 void InitPeripheralClocks(void);
 void InitPll(Uint16 val);

@@ -6,8 +6,8 @@
 #include "DSP281x_Device.h"
 #include "DSP281x_Examples.h"
 
-#define PieCtrl    PieCtrlRegs
-#define SCIENCLKA  SCIAENCLK
-#define SCIENCLKB  SCIBENCLK
+#define PieCtrl   PieCtrlRegs
+#define SCIENCLKA SCIAENCLK
+#define SCIENCLKB SCIBENCLK
 
 #endif // DSP28_DEVICE_H

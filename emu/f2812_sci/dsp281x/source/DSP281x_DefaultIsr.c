@@ -3,13 +3,13 @@
 #include "DSP281x_Device.h"
 #include "DSP281x_Examples.h"
 
-#define DSP281x_STOP(NAME)                                                                                                                 \
-    interrupt void NAME(void)                                                                                                              \
-    {                                                                                                                                      \
-        ESTOP0;                                                                                                                            \
-        for (;;)                                                                                                                           \
-        {                                                                                                                                  \
-        }                                                                                                                                  \
+#define DSP281x_STOP(NAME)                                                                                             \
+    interrupt void NAME(void)                                                                                          \
+    {                                                                                                                  \
+        ESTOP0;                                                                                                        \
+        for (;;)                                                                                                       \
+        {                                                                                                              \
+        }                                                                                                              \
     }
 
 // clang-format off
@@ -79,9 +79,9 @@ DSP281x_STOP(ECAN0INTA_ISR)
 DSP281x_STOP(ECAN1INTA_ISR)
 DSP281x_STOP(PIE_RESERVED)
 DSP281x_STOP(rsvd_ISR)
-// clang-format on
+    // clang-format on
 
-/// For an interrupt that is to be ignored; it acknowledges nothing.
-interrupt void EMPTY_ISR(void)
+    /// For an interrupt that is to be ignored; it acknowledges nothing.
+    interrupt void EMPTY_ISR(void)
 {
 }

@@ -5,14 +5,6 @@
 
 void InitSysCtrl(void)
 {
-    EALLOW;
-    DevEmuRegs.M0RAMDFT = 0x0300; // for silicon before revision C
-    DevEmuRegs.M1RAMDFT = 0x0300;
-    DevEmuRegs.L0RAMDFT = 0x0300;
-    DevEmuRegs.L1RAMDFT = 0x0300;
-    DevEmuRegs.H0RAMDFT = 0x0300;
-    EDIS;
-
     DisableDog();
     InitPll(0xA); // 30 MHz x 10 / 2
     InitPeripheralClocks();

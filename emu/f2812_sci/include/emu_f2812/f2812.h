@@ -82,6 +82,8 @@ EMU_API emu_time_t f2812_idle(f2812_t* self, emu_time_t limit);
 EMU_API emu_time_t f2812_now(f2812_t* self);
 /// Cycles of SYSCLKOUT since create.
 EMU_API uint64_t f2812_cycle(const f2812_t* self);
+/// First cycle in which something happens by itself: until then registers change by what the program does alone, but for counters.
+EMU_API uint64_t f2812_due(const f2812_t* self);
 
 /// f2812_take_interrupt() has something to give.
 EMU_API bool f2812_interrupt_pending(const f2812_t* self);

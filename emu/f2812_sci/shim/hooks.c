@@ -1,0 +1,233 @@
+/// What the compiler calls in firmware made with -fsanitize=thread --param tsan-distinguish-volatile=1 -fsanitize-coverage=trace-pc.
+///
+/// A read hook stands before its load: it asks the device and puts the answer where the load will find it. A write hook stands before
+/// its store: the value is not there yet, so the next hook takes it to the device. Time passes between the two in no case.
+/// SPDX-License-Identifier: MIT
+#include "shim_internal.h"
+#include <string.h>
+
+#define HOOK EMU_API
+
+f2812_shim_t* f2812_shim_current;
+uint32_t f2812_shim_debt;
+uint64_t f2812_shim_changes;
+/// The same as f2812-cc names them in calls to functions that are not instrumented.
+_Static_assert(sizeof f2812_shim_debt == 4, "the thunks of f2812-cc add to 32 bits");
+
+/// Register that counts by itself, or whose reading changes something: a loop that looks at it is not passed over.
+static bool restless(uint16_t address)
+{
+    return (address >= 0x0C00 && address < 0x0C18)    // CPU timers
+           || address == 0x7023                       // WDCNTR
+           || (address >= 0x7070 && address < 0x7080) // XINTnCTR
+           || address == 0x7057 || address == 0x7757  // SCIRXBUF
+           || (address >= 0x7100 && address < 0x7800 && address != 0x7754 && (address & 0xFFF0) != 0x7750); // ADC, EV
+}
+
+static uint16_t load(f2812_shim_t* self, uint16_t address)
+{
+    switch (address)
+    {
+    case F2812_MAP_ZERO:
+        return 0;
+    case F2812_MAP_IER:
+        return f2812_cpu(self->device)->ier;
+    case F2812_MAP_IFR:
+        return f2812_cpu(self->device)->ifr;
+    default:
+        f2812_shim_changes += restless(address);
+        return f2812_read(self->device, address);
+    }
+}
+
+/// The words of an access, from the one that holds its first octet; a byte access may name the upper octet.
+static inline uint16_t* words_of(uintptr_t at)
+{
+    return (uint16_t*)(at & ~(uintptr_t)1);
+}
+
+static void load_words(f2812_shim_t* self, uintptr_t at, unsigned words)
+{
+    uint16_t* const word = words_of(at);
+    const uint16_t* const map = self->map + (at - self->base) / 2;
+    for (unsigned i = 0; i < words; i++)
+    {
+        if (map[i] != F2812_MAP_NONE && map[i] != F2812_MAP_VECTOR)
+        {
+            word[i] = load(self, map[i]);
+        }
+    }
+}
+
+static inline void reading(uintptr_t at, unsigned words)
+{
+    f2812_shim_t* const self = f2812_shim_current;
+    f2812_shim_step(self, F2812_CYCLES_REGISTER);
+    self->midway = true;
+    self->stats.accesses++;
+    if (at - self->base < self->span)
+    {
+        load_words(self, at, words);
+    }
+}
+
+/// The memory is made what the device holds: a store to a bit-field puts back the rest of its word, and for its read there is no hook.
+/// An entry of PieVectTable is kept, since the store may be refused.
+static void prepare_store(f2812_shim_t* self, uintptr_t at, unsigned words)
+{
+    uint16_t* const word = words_of(at);
+    const uint16_t* const map = self->map + (at - self->base) / 2;
+    if (map[0] == F2812_MAP_VECTOR)
+    {
+        memcpy(&self->vector_before, word, words * sizeof *word);
+    }
+    for (unsigned i = 0; i < words; i++)
+    {
+        if (map[i] > F2812_MAP_VECTOR)
+        {
+            word[i] = f2812_peek(self->device, map[i]);
+        }
+    }
+    self->store = (uintptr_t)word;
+    self->store_words = words;
+}
+
+static inline void writing(uintptr_t at, unsigned words)
+{
+    f2812_shim_t* const self = f2812_shim_current;
+    f2812_shim_step(self, F2812_CYCLES_REGISTER);
+    self->midway = false;
+    self->stats.accesses++;
+    f2812_shim_changes++;
+    if (at - self->base < self->span)
+    {
+        prepare_store(self, at, words);
+    }
+}
+
+/// An access of an object that is not volatile: registers all the same, when firmware has cast that away.
+static inline void touching(uintptr_t at, unsigned words)
+{
+    f2812_shim_debt += F2812_CYCLES_MEMORY;
+    if (at - f2812_shim_current->base < f2812_shim_current->span)
+    {
+        reading(at, words);
+    }
+}
+
+static inline void changing(uintptr_t at, unsigned words)
+{
+    f2812_shim_debt += F2812_CYCLES_MEMORY;
+    f2812_shim_changes++;
+    f2812_shim_current->midway = false;
+    if (at - f2812_shim_current->base < f2812_shim_current->span)
+    {
+        writing(at, words);
+    }
+}
+
+/// A vector of PieVectTable is written: EALLOW must be on, and the device's RAM holds the low 32 bits of the function's address.
+static void commit_vector(f2812_shim_t* self, uint16_t* word, unsigned words)
+{
+    const uintptr_t offset = (uintptr_t)word - (uintptr_t)self->program->vectors;
+    const unsigned entry = (unsigned)(offset / sizeof(void*));
+    const unsigned first = (unsigned)(offset % sizeof(void*)) / 2;
+    for (unsigned i = 0; i < words && first + i < 2; i++)
+    {
+        f2812_write(self->device, (uint16_t)(0x0D00u + 2u * entry + first + i), word[i]);
+    }
+    if (!f2812_cpu(self->device)->eallow)
+    {
+        memcpy(word, &self->vector_before, words * sizeof *word);
+    }
+}
+
+void f2812_shim_commit(f2812_shim_t* self)
+{
+    uint16_t* const word = (uint16_t*)self->store;
+    const uint16_t* const map = self->map + (self->store - self->base) / 2;
+    self->store = 0;
+    if (map[0] == F2812_MAP_VECTOR)
+    {
+        commit_vector(self, word, self->store_words);
+        return;
+    }
+    for (unsigned i = 0; i < self->store_words; i++)
+    {
+        switch (map[i])
+        {
+        case F2812_MAP_NONE:
+        case F2812_MAP_ZERO:
+        case F2812_MAP_VECTOR:
+            break;
+        case F2812_MAP_IER:
+            f2812_set_ier(self->device, word[i]);
+            break;
+        case F2812_MAP_IFR:
+            f2812_set_ifr(self->device, word[i]);
+            break;
+        default:
+            f2812_write(self->device, map[i], word[i]);
+            break;
+        }
+    }
+}
+
+// clang-format off
+#define HOOK_SIZE(SIZE, WORDS)                                                                                                             \
+    HOOK void __tsan_volatile_read##SIZE(const void* at);                                                                                  \
+    HOOK void __tsan_volatile_read##SIZE(const void* at) { reading((uintptr_t)at, WORDS); }                                                \
+    HOOK void __tsan_volatile_write##SIZE(void* at);                                                                                       \
+    HOOK void __tsan_volatile_write##SIZE(void* at) { writing((uintptr_t)at, WORDS); }                                           \
+    HOOK void __tsan_unaligned_volatile_read##SIZE(const void* at);                                                                        \
+    HOOK void __tsan_unaligned_volatile_read##SIZE(const void* at) { reading((uintptr_t)at, WORDS); }                                      \
+    HOOK void __tsan_unaligned_volatile_write##SIZE(void* at);                                                                             \
+    HOOK void __tsan_unaligned_volatile_write##SIZE(void* at) { writing((uintptr_t)at, WORDS); }                                 \
+    HOOK void __tsan_read##SIZE(const void* at);                                                                                           \
+    HOOK void __tsan_read##SIZE(const void* at) { touching((uintptr_t)at, WORDS); }                                                        \
+    HOOK void __tsan_write##SIZE(void* at);                                                                                                \
+    HOOK void __tsan_write##SIZE(void* at) { changing((uintptr_t)at, WORDS); }                                                   \
+    HOOK void __tsan_unaligned_read##SIZE(const void* at);                                                                                 \
+    HOOK void __tsan_unaligned_read##SIZE(const void* at) { touching((uintptr_t)at, WORDS); }                                              \
+    HOOK void __tsan_unaligned_write##SIZE(void* at);                                                                                      \
+    HOOK void __tsan_unaligned_write##SIZE(void* at) { changing((uintptr_t)at, WORDS); }
+HOOK_SIZE(1, 1)
+HOOK_SIZE(2, 1)
+HOOK_SIZE(4, 2)
+HOOK_SIZE(8, 4)
+HOOK_SIZE(16, 8)
+// clang-format on
+
+HOOK void __tsan_read_range(const void* at, unsigned long octets);
+HOOK void __tsan_read_range(const void* at, unsigned long octets)
+{
+    f2812_shim_debt += F2812_CYCLES_MEMORY * (uint32_t)(octets / 2);
+    if ((uintptr_t)at - f2812_shim_current->base < f2812_shim_current->span)
+    {
+        reading((uintptr_t)at, (unsigned)(octets / 2));
+    }
+}
+
+HOOK void __tsan_write_range(void* at, unsigned long octets);
+HOOK void __tsan_write_range(void* at, unsigned long octets)
+{
+    f2812_shim_debt += F2812_CYCLES_MEMORY * (uint32_t)(octets / 2);
+    f2812_shim_changes++;
+    if ((uintptr_t)at - f2812_shim_current->base < f2812_shim_current->span)
+    {
+        writing((uintptr_t)at, (unsigned)(octets / 2));
+    }
+}
+
+/// Called once by a constructor that the compiler adds to each file.
+HOOK void __tsan_init(void);
+HOOK void __tsan_init(void) {}
+
+HOOK void __sanitizer_cov_trace_pc(void);
+HOOK void __sanitizer_cov_trace_pc(void)
+{
+    f2812_shim_t* const self = f2812_shim_current;
+    self->midway = false;
+    self->stats.blocks++;
+    f2812_shim_step(self, F2812_CYCLES_BLOCK);
+}

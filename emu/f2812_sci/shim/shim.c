@@ -1,0 +1,322 @@
+/// The firmware as a coroutine: its stack, its start and restart, its interrupts, and how it stops.
+/// SPDX-License-Identifier: MIT
+#define _XOPEN_SOURCE 700
+#include "shim_internal.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <ucontext.h>
+
+#define STACK_OCTETS    ((size_t)1 << 20)
+#define REPORT_OCTETS   160
+#define WORD_OCTETS     2u
+#define SPAN_OCTETS_MAX ((size_t)1 << 24) ///< register objects lie together, or at least not further apart
+
+typedef enum leave_t
+{
+    LEAVE_REACHED,
+    LEAVE_BROKEN,
+    LEAVE_ENDED,
+    LEAVE_RESTART
+} leave_t;
+
+typedef struct coroutine_t
+{
+    ucontext_t host, firmware;
+    bool inside;  ///< the firmware runs, not the host
+    bool started; ///< it has a stack to go on with
+    leave_t why;
+    uint32_t debt; ///< f2812_shim_debt while it does not run
+    uint64_t stack[STACK_OCTETS / sizeof(uint64_t)];
+} coroutine_t;
+
+static coroutine_t* coroutine_of(const f2812_shim_t* self)
+{
+    return self->coroutine;
+}
+
+/// Back to f2812_shim_run(); goes on here at the next one, but for an end or a restart.
+static void leave(f2812_shim_t* self, leave_t why)
+{
+    coroutine_t* const c = coroutine_of(self);
+    c->why = why;
+    c->inside = false;
+    (void)swapcontext(&c->firmware, &c->host);
+    c->inside = true;
+}
+
+/// After all else that is due at the instant.
+static void until_fire(void* ctx, emu_time_t at)
+{
+    f2812_shim_t* const self = ctx;
+    if (emu_sched_next(self->sched) <= at)
+    {
+        emu_sched_at(self->sched, &self->until, at);
+    }
+    else if (coroutine_of(self)->inside)
+    {
+        leave(self, LEAVE_REACHED);
+    }
+}
+
+void f2812_shim_error(f2812_shim_t* self, emu_report_kind_t kind, const char* text, uint32_t detail)
+{
+    if (self->report.put != NULL)
+    {
+        self->report.put(self->report.ctx, kind, text, detail, f2812_now(self->device));
+    }
+}
+
+void f2812_shim_finish(f2812_shim_t* self, const char* why)
+{
+    self->end = why;
+    leave(self, LEAVE_ENDED);
+}
+
+static void interrupt(f2812_shim_t* self, unsigned vector, const f2812_context_t* saved)
+{
+    void (*const function)(void) = self->program->vectors != NULL ? self->program->vectors[vector] : NULL;
+    self->stats.interrupts++;
+    if (function == NULL)
+    {
+        f2812_shim_error(self, EMU_GUEST_ERROR, "an interrupt was taken whose entry in PieVectTable is not set",
+                         vector);
+        f2812_shim_finish(self, "interrupt without a function");
+    }
+    f2812_advance(self->device, F2812_CYCLES_INTERRUPT);
+    function();
+    self->midway = false;
+    f2812_shim_step(self, F2812_CYCLES_IRET);
+    f2812_iret(self->device, saved);
+}
+
+void f2812_shim_attend(f2812_shim_t* self)
+{
+    while (f2812_interrupt_pending(self->device))
+    {
+        f2812_context_t saved;
+        const int vector = f2812_take_interrupt(self->device, &saved);
+        if (vector == F2812_VECTOR_RESET)
+        {
+            leave(self, LEAVE_RESTART);
+        }
+        else if (vector != F2812_NO_VECTOR)
+        {
+            interrupt(self, (unsigned)vector, &saved);
+        }
+    }
+    if (self->stop)
+    {
+        self->stop = false;
+        leave(self, LEAVE_BROKEN);
+    }
+}
+
+void f2812_shim_step(f2812_shim_t* self, uint32_t cycles)
+{
+    if (self->store != 0)
+    {
+        f2812_shim_commit(self);
+    }
+    cycles += f2812_shim_debt;
+    f2812_shim_debt = 0;
+    f2812_advance(self->device, cycles);
+    if ((f2812_interrupt_pending(self->device) || self->stop) && !self->midway)
+    {
+        f2812_shim_attend(self);
+    }
+}
+
+void f2812_shim_idle(f2812_shim_t* self)
+{
+    (void)f2812_idle(self->device, EMU_TIME_MAX);
+    f2812_shim_changes++;
+}
+
+static void enter(void)
+{
+    f2812_shim_t* const self = f2812_shim_current;
+    coroutine_of(self)->inside = true;
+    self->program->main();
+    f2812_shim_step(self, 0);
+    f2812_shim_finish(self, "main() returned");
+}
+
+/// main() from the beginning, its variables as they were loaded.
+static void start(f2812_shim_t* self)
+{
+    coroutine_t* const c = coroutine_of(self);
+    f2812_context_t unused;
+    (void)f2812_take_interrupt(self->device, &unused); // the reset itself
+    memcpy(self->program->data, self->initial, (size_t)(self->program->data_end - self->program->data));
+    memset(self->slot, 0, sizeof self->slot);
+    self->store = 0;
+    self->midway = false;
+    f2812_shim_debt = 0;
+    self->stats.starts++;
+    (void)getcontext(&c->firmware);
+    c->firmware.uc_stack.ss_sp = c->stack;
+    c->firmware.uc_stack.ss_size = STACK_OCTETS;
+    c->firmware.uc_link = NULL;
+    makecontext(&c->firmware, enter, 0);
+    c->started = true;
+}
+
+/// Without the firmware: it has ended, or /XRS is low.
+static void pass_time(f2812_shim_t* self, emu_time_t until, bool in_reset)
+{
+    while (self->sched->now < until && (!in_reset || f2812_in_reset(self->device)))
+    {
+        (void)f2812_skip(self->device, until);
+    }
+}
+
+static leave_t go_on(f2812_shim_t* self, emu_time_t until)
+{
+    coroutine_t* const c = coroutine_of(self);
+    do
+    {
+        if (!c->started)
+        {
+            pass_time(self, until, true);
+            if (f2812_in_reset(self->device))
+            {
+                return LEAVE_REACHED;
+            }
+            start(self);
+        }
+        emu_sched_at(self->sched, &self->until, until);
+        (void)swapcontext(&c->host, &c->firmware);
+        emu_sched_cancel(self->sched, &self->until);
+        c->started = c->why == LEAVE_REACHED || c->why == LEAVE_BROKEN;
+    } while (c->why == LEAVE_RESTART);
+    return c->why;
+}
+
+f2812_stop_t f2812_shim_run(f2812_shim_t* self, emu_time_t until)
+{
+    coroutine_t* const c = coroutine_of(self);
+    if (self->end != NULL)
+    {
+        pass_time(self, until, false);
+        return F2812_ENDED;
+    }
+    f2812_shim_current = self;
+    f2812_shim_debt = c->debt;
+    const leave_t why = go_on(self, until);
+    c->debt = f2812_shim_debt;
+    return why == LEAVE_REACHED ? F2812_REACHED : why == LEAVE_BROKEN ? F2812_BROKEN : F2812_ENDED;
+}
+
+/// Which word of the device each half-word of the register objects is.
+static bool make_map(f2812_shim_t* self)
+{
+    const f2812_program_t* const p = self->program;
+    uintptr_t first = UINTPTR_MAX;
+    uintptr_t last = 0;
+    for (size_t i = 0; i < p->object_count; i++)
+    {
+        const uintptr_t at = (uintptr_t)p->objects[i].at;
+        if (at != 0)
+        {
+            first = at < first ? at : first;
+            last = at + p->objects[i].words * WORD_OCTETS > last ? at + p->objects[i].words * WORD_OCTETS : last;
+        }
+    }
+    const uintptr_t table = (uintptr_t)p->vectors;
+    const size_t table_octets = F2812_VECTORS * sizeof(void*);
+    if (table != 0)
+    {
+        first = table < first ? table : first;
+        last = table + table_octets > last ? table + table_octets : last;
+    }
+    if (first > last || last - first > SPAN_OCTETS_MAX)
+    {
+        return first > last;
+    }
+    self->base = first & ~(uintptr_t)1;
+    self->span = last - self->base;
+    self->map = calloc(self->span / WORD_OCTETS + 1, sizeof *self->map);
+    if (self->map == NULL)
+    {
+        return false;
+    }
+    for (size_t i = 0; i < p->object_count; i++)
+    {
+        const f2812_object_t* const object = &p->objects[i];
+        for (unsigned word = 0; object->at != NULL && word < object->words; word++)
+        {
+            self->map[((uintptr_t)object->at - self->base) / WORD_OCTETS + word] =
+                object->address > F2812_MAP_VECTOR ? (uint16_t)(object->address + word)
+                : word == 0                        ? object->address
+                                                   : (uint16_t)F2812_MAP_ZERO;
+        }
+    }
+    for (size_t i = 0; table != 0 && i < table_octets / WORD_OCTETS; i++)
+    {
+        self->map[(table - self->base) / WORD_OCTETS + i] = F2812_MAP_VECTOR;
+    }
+    return true;
+}
+
+f2812_shim_t* f2812_shim_create(f2812_t* device, emu_sched_t* sched, const f2812_program_t* program,
+                                const emu_report_t* report)
+{
+    f2812_shim_t* const self = calloc(1, sizeof *self);
+    const size_t octets = (size_t)(program->data_end - program->data);
+    if (self == NULL)
+    {
+        return NULL;
+    }
+    self->device = device;
+    self->sched = sched;
+    self->program = program;
+    self->report = report != NULL ? *report : (emu_report_t){0};
+    self->skip = true;
+    self->until = (emu_event_t){.fire = until_fire, .ctx = self};
+    self->coroutine = calloc(1, sizeof(coroutine_t));
+    self->initial = malloc(octets + 1);
+    if (self->coroutine == NULL || self->initial == NULL || !make_map(self))
+    {
+        f2812_shim_destroy(self);
+        return NULL;
+    }
+    memcpy(self->initial, program->data, octets);
+    return self;
+}
+
+void f2812_shim_destroy(f2812_shim_t* self)
+{
+    if (self != NULL)
+    {
+        emu_sched_cancel(self->sched, &self->until);
+        if (self->initial != NULL) // the next shim of the program finds it as loaded
+        {
+            memcpy(self->program->data, self->initial, (size_t)(self->program->data_end - self->program->data));
+        }
+        free(self->coroutine);
+        free(self->initial);
+        free(self->map);
+        free(self);
+    }
+}
+
+void f2812_shim_break(f2812_shim_t* self)
+{
+    self->stop = true;
+}
+
+void f2812_shim_set_skip(f2812_shim_t* self, bool on)
+{
+    self->skip = on;
+}
+
+const char* f2812_shim_end(const f2812_shim_t* self)
+{
+    return self->end;
+}
+
+const f2812_shim_stats_t* f2812_shim_stats(const f2812_shim_t* self)
+{
+    return &self->stats;
+}
