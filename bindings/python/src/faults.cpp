@@ -14,7 +14,6 @@ namespace
 {
 
 constexpr double code_max = 4095.0;
-constexpr emu_time_t drift_step = EMU_PS_PER_S / 100; ///< a drifting crystal is set anew so often
 const std::string host_rxd = "HOST RXD";
 
 /// (0, 1)
@@ -38,13 +37,6 @@ unsigned below(uint64_t& random, unsigned count)
     return static_cast<unsigned>(unit(random) * count);
 }
 
-/// The next of events that come at random instants.
-emu_time_t drawn(uint64_t& random, const Fault& fault, emu_time_t after)
-{
-    const double gap_ps = -ins_truth_log(unit(random)) / fault.rate_hz * 1e12;
-    return gap_ps < static_cast<double>(fault.to - after) ? after + static_cast<emu_time_t>(gap_ps) + 1 : EMU_TIME_MAX;
-}
-
 bool in_conversion(FaultKind kind)
 {
     return kind <= FaultKind::volts_noise;
@@ -61,6 +53,19 @@ uint16_t code_of(double code)
 }
 
 } // namespace
+
+emu_time_t fault_drawn(uint64_t& random, const Fault& fault, emu_time_t after)
+{
+    const double gap_ps = -ins_truth_log(unit(random)) / fault.rate_hz * 1e12;
+    return gap_ps < static_cast<double>(fault.to - after) ? after + static_cast<emu_time_t>(gap_ps) + 1 : EMU_TIME_MAX;
+}
+
+int32_t fault_ppb(const Fault& fault, emu_time_t now)
+{
+    const double ppb = 1e3 * (fault.value + fault.drift * 1e-12 * static_cast<double>(now - fault.from));
+    const double limit = EMU_PPB_MAX;
+    return static_cast<int32_t>(std::floor(std::clamp(ppb, -limit, limit) + 0.5));
+}
 
 emu_wire_t* Faults::wire(const std::string& name) const
 {
@@ -100,7 +105,7 @@ void Faults::add(const Fault& fault)
     Active active{fault};
     active.random = fault.seed;
     active.begins = in_conversion(fault.kind) ? EMU_TIME_MAX
-                    : fault.rate_hz > 0.0     ? drawn(active.random, fault, std::max(fault.from, target_.sched->now))
+                    : fault.rate_hz > 0.0     ? fault_drawn(active.random, fault, std::max(fault.from, target_.sched->now))
                                               : fault.from;
     faults_.push_back(active);
 }
@@ -137,7 +142,7 @@ void Faults::begin(Active& active)
     const Fault& fault = active.fault;
     const emu_time_t now = target_.sched->now;
     const bool again = active.on; // a drifting crystal, or a reset in a reset
-    active.begins = fault.rate_hz > 0.0 ? drawn(active.random, fault, now) : EMU_TIME_MAX;
+    active.begins = fault.rate_hz > 0.0 ? fault_drawn(active.random, fault, now) : EMU_TIME_MAX;
     active.hits += !again;
     switch (fault.kind)
     {
@@ -233,10 +238,8 @@ void Faults::set_crystal(Active& active)
 {
     const Fault& fault = active.fault;
     const emu_time_t now = target_.sched->now;
-    const double ppb = 1e3 * (fault.value + fault.drift * 1e-12 * static_cast<double>(now - fault.from));
-    const double limit = EMU_PPB_MAX;
-    acq_board_set_crystal(target_.board, static_cast<int32_t>(std::floor(std::clamp(ppb, -limit, limit) + 0.5)));
-    active.begins = fault.drift != 0.0 ? now + drift_step : EMU_TIME_MAX;
+    acq_board_set_crystal(target_.board, fault_ppb(fault, now));
+    active.begins = fault.drift != 0.0 ? now + fault_drift_step : EMU_TIME_MAX;
 }
 
 void Faults::connect(const Fault& fault, bool on)

@@ -60,6 +60,13 @@ struct Fault
     uint64_t seed = 0;
 };
 
+constexpr emu_time_t fault_drift_step = EMU_PS_PER_S / 100; ///< a drifting crystal is set anew so often
+
+/// The next of events that come at random instants; EMU_TIME_MAX: not before fault.to.
+emu_time_t fault_drawn(uint64_t& random, const Fault& fault, emu_time_t after);
+/// Error of a crystal with this fault.
+int32_t fault_ppb(const Fault& fault, emu_time_t now);
+
 /// The faults of one run, on its board and on the host's end of its line.
 class Faults
 {

@@ -112,7 +112,8 @@ void Run::wire_up()
     bool wired = emu_serial_line_init(&lines_[0], &sched_, txd, &host_rxd_, &faults) == 0;
     faults.seed = 2 * config_.seed + 1;
     wired = wired && emu_serial_line_init(&lines_[1], &sched_, &host_txd_, rxd, &faults) == 0;
-    wired = wired && emu_serial_end_init(&end_, &sched_, &host_txd_, &host_rxd_, config_.baud, on_octet, this) == 0;
+    emu_wire_t* const transmits = config_.outside ? nullptr : &host_txd_;
+    wired = wired && emu_serial_end_init(&end_, &sched_, transmits, &host_rxd_, config_.baud, on_octet, this) == 0;
     for (unsigned i = 0; wired && config_.trace && i < traced.size(); i++)
     {
         taps_[i] = {this, i};
@@ -234,16 +235,7 @@ void Run::on_pin_edge(void* ctx, bool level, emu_time_t at)
 
 void Run::on_report(void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at)
 {
-    Run& self = *static_cast<Run*>(ctx);
-    for (Report& report : self.reports)
-    {
-        if (report.kind == kind && report.detail == detail && report.text == text)
-        {
-            report.count++;
-            return;
-        }
-    }
-    self.reports.push_back({kind, text, detail, at, 1});
+    add_report(static_cast<Run*>(ctx)->reports, kind, text, detail, at);
 }
 
 void Run::on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at)

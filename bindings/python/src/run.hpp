@@ -13,7 +13,9 @@
 #include "ins_truth/gyro.h"
 #include "ins_truth/motion.h"
 #include "observers.hpp"
+#include "octet.hpp"
 #include "program.hpp"
+#include "report.hpp"
 #include "signal.hpp"
 #include <array>
 #include <map>
@@ -54,27 +56,10 @@ struct Edge
     int64_t level;
 };
 
-struct Report
-{
-    emu_report_kind_t kind;
-    std::string text;
-    uint32_t detail;
-    emu_time_t first;
-    uint64_t count;
-};
-
 struct Segment
 {
     uint16_t address;
     std::string octets;
-};
-
-/// What the host's end of the line received.
-struct Octet
-{
-    emu_time_t at; ///< in the stop bit
-    uint8_t value;
-    bool framing_ok;
 };
 
 struct RunConfig
@@ -95,6 +80,7 @@ struct RunConfig
     std::map<unsigned, Signal> signals; ///< by channel; the others have the gyros
     bool six = false;                   ///< the board of acq_board_six_config()
     bool listen = false;                ///< keep the octets that the host receives, also where the navigator takes them
+    bool outside = false;               ///< what is beyond the host's wires is somebody else's, the transmitter too
     bool seen =
         false; ///< keep the converter's samples and the edges of all pins, for take_samples() and take_pin_edges()
 };
@@ -155,6 +141,9 @@ class Run
     void restore(const std::string& octets);
 
     emu_time_t now() const { return sched_.now; }
+    emu_sched_t& sched() { return sched_; }
+    emu_wire_t& host_rxd() { return host_rxd_; }
+    emu_wire_t& host_txd() { return host_txd_; }
     acq_board_t* board() const { return board_.get(); }
     const RunConfig& config() const { return config_; }
     mcs51_t* cpu() const { return acq_board_cpu(board_.get()); }

@@ -3,6 +3,7 @@
 #include "board_module.hpp"
 #include "debug_module.hpp"
 #include "ins/coning.h"
+#include "net_module.hpp"
 #include "observe_module.hpp"
 #include "run.hpp"
 #include <memory>
@@ -173,6 +174,22 @@ ins_nav_config_t nav_config(double period_s, unsigned block_len, bool sequence, 
 }
 
 } // namespace
+
+nb::list libins::reports_list(const std::vector<Report>& reports)
+{
+    nb::list list;
+    for (const Report& report : reports)
+    {
+        nb::dict d;
+        d["kind"] = report.kind == EMU_GUEST_ERROR ? "guest_error" : "not_modelled";
+        d["text"] = report.text;
+        d["detail"] = report.detail;
+        d["first_s"] = static_cast<double>(report.first) * 1e-12;
+        d["count"] = report.count;
+        list.append(d);
+    }
+    return list;
+}
 
 NB_MODULE(_run, m)
 {
@@ -365,20 +382,7 @@ NB_MODULE(_run, m)
         .def("scans", scans)
         .def("counters", counters)
         .def("reports",
-             [](const Run& self)
-             {
-                 nb::list list;
-                 for (const Report& report : self.reports)
-                 {
-                     nb::dict d;
-                     d["kind"] = report.kind == EMU_GUEST_ERROR ? "guest_error" : "not_modelled";
-                     d["text"] = report.text;
-                     d["detail"] = report.detail;
-                     d["first_s"] = static_cast<double>(report.first) * 1e-12;
-                     d["count"] = report.count;
-                     list.append(d);
-                 }
-                 return list;
-             });
+             [](const Run& self) { return libins::reports_list(self.reports); });
+    libins::bind_net(m);
     libins::bind_observer(m);
 }

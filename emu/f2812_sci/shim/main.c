@@ -3,6 +3,7 @@
 #define _XOPEN_SOURCE 700
 #include "emu/serial.h"
 #include "emu_f2812/registers.h"
+#include "pipe.h"
 #include "summary.h"
 #include <errno.h>
 #include <inttypes.h>
@@ -32,7 +33,8 @@ static const char usage[] =
     "  --osc-hz HZ               crystal (30e6)\n"
     "  --no-skip                 execute each turn of waiting loops\n"
     "  --strict                  exit status 3 if the firmware did something wrong\n"
-    "  --json FILE               the summary there, not on standard output\n";
+    "  --json FILE               the summary there, not on standard output\n"
+    "  --pipe FD                 alone: a run of several boards drives it over this socket (emu_f2812/wirelink.h)\n";
 
 typedef struct host_t
 {
@@ -301,6 +303,10 @@ static void go(run_t* run, f2812_shim_t* shim)
 int main(int argc, char** argv)
 {
     static run_t run = {.stop_s = 1e6, .host_at_s = HOST_BEGINS};
+    if (argc == 3 && strcmp(argv[1], "--pipe") == 0)
+    {
+        return f2812_pipe_main((int)number(argv[1], argv[2]), &f2812_program);
+    }
     f2812_default_config(&run.config);
     run.config.report = (emu_report_t){f2812_take_note, &run.notes};
     parse(&run, argc, argv);
