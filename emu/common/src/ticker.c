@@ -143,9 +143,14 @@ void emu_ticker_rate(emu_ticker_t* self, uint64_t tick, int32_t ppb)
 
 void emu_ticker_clock(emu_ticker_t* self, uint64_t tick, const emu_clock_t* clock)
 {
-    emu_ticker_rate(self, tick, self->ppb);
+    const uint64_t parts = self->parts;
+    uint64_t rest;
+    self->at = later(self, tick, &rest);
+    self->tick = tick;
     self->clock = *clock;
     set_rate(self, self->ppb);
+    // As long as the product fits, so that ticks of two clocks that coincide go on doing so.
+    self->rest = parts <= UINT32_MAX && self->parts <= UINT32_MAX ? rest * self->parts / parts : 0;
 }
 
 void emu_ticker_state(emu_ticker_t* self, emu_state_t* io)

@@ -187,6 +187,11 @@ void f2812_destroy(f2812_t* self)
     {
         emu_sched_cancel(self->sched, &self->timer[n].event);
     }
+    for (unsigned n = 0; n < F2812_SCIS; n++)
+    {
+        emu_sched_cancel(self->sched, &self->serial[n].sci.tx.event);
+        emu_sched_cancel(self->sched, &self->serial[n].sci.rx.event);
+    }
     self->sched->earlier = NULL;
     free(self);
 }

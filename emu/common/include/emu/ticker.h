@@ -31,7 +31,7 @@ typedef struct emu_ticker_t
 EMU_API void emu_ticker_init(emu_ticker_t* self, const emu_clock_t* clock);
 /// From tick on the rate is hz * (1 + ppb / 1e9). |ppb| <= EMU_PPB_MAX. \param[in] tick the present, or later
 EMU_API void emu_ticker_rate(emu_ticker_t* self, uint64_t tick, int32_t ppb);
-/// From tick on it is another clock, as far off as before. \param[in] tick as for emu_ticker_rate
+/// From tick on it is another clock, as far off as before; no part of a picosecond is lost. \param[in] tick the present, or later
 EMU_API void emu_ticker_clock(emu_ticker_t* self, uint64_t tick, const emu_clock_t* clock);
 /// Instant of a tick of the present: not before a change of rate, and no more than a few ticks before another call's.
 EMU_API emu_time_t emu_ticker_time(emu_ticker_t* self, uint64_t tick);
