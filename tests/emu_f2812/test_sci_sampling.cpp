@@ -292,7 +292,9 @@ TEST(sci_sampling, noise_is_read_as_the_oracle_reads_it)
             line.push_back(t);
         }
         const unsigned brr = std::array<unsigned, 4>{0, 1, 7, BRR_19200}[seed % 4];
-        receiver sci(brr);
+        f2812_switches_t switches{};
+        switches.sci_break_hold = F2812_SCI_BREAK_HOLD_OFF; // the oracle knows no break
+        receiver sci(brr, switches);
         sci.play(line);
         ASSERT_TRUE(sci.got == oracle(line, static_cast<unsigned>(t + 200), 1)) << "seed " << seed << " BRR " << brr;
     }

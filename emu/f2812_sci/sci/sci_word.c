@@ -80,7 +80,10 @@ void sci_rx_hand_over(sci_t* self)
     if (!held)
     {
         sci_set(self, SCIRXST, SCIRXST_RXRDY, true);
-        sci_set(self, SCIRXST, SCIRXST_RXWAKE, wake);
+        if (wake || !fifo)
+        {
+            sci_set(self, SCIRXST, SCIRXST_RXWAKE, wake);
+        }
         if (fifo)
         {
             put(self, (uint16_t)(data | (fe ? SCIRXBUF_SCIFFFE : 0u) | (pe ? SCIRXBUF_SCIFFPE : 0u)));
