@@ -53,20 +53,20 @@ static void find_poll(const mcs51_t* self, uint32_t pc, entry_t* e)
     {
         BACK = 0xFB ///< from behind the SJMP to the poll
     };
-    e->turn = 0;
+    e->waits = false;
     if ((e->opcode != JBC && e->opcode != JB && e->opcode != JNB) || !waits(e->o1))
     {
         return;
     }
     if (e->target == e && e->opcode != JBC)
     {
-        e->turn = 2;
+        e->waits = true;
         e->until = e->opcode == JNB;
     }
     else if (code_at(self, pc + POLL_OCTETS) == SJMP && code_at(self, pc + POLL_OCTETS + 1u) == BACK &&
              (e->opcode != JBC || (e->o1 & 0xCFu) != P0))
     {
-        e->turn = 4;
+        e->waits = true;
         e->until = e->opcode != JNB;
     }
 }
@@ -93,7 +93,7 @@ static void choose(mcs51_t* self, uint32_t pc, entry_t* e)
     {
         e->run = mcs51_one;
     }
-    else if (e->turn && !self->no_spin && !(self->marks[(pc + POLL_OCTETS) & 0xFFFFu] & MARK_BREAK))
+    else if (e->waits && !self->no_spin && !(self->marks[(pc + POLL_OCTETS) & 0xFFFFu] & MARK_BREAK))
     {
         e->run = mcs51_poll;
     }

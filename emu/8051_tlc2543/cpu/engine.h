@@ -99,7 +99,7 @@ struct entry_t
     uint8_t o1, o2; ///< operand octets; of a bit, its octet and its place in it
     uint8_t opcode;
     uint8_t operand; ///< row of mcs51_handlers
-    uint8_t turn;    ///< cycles of a turn of the polling loop that begins here; 0: none
+    bool waits;      ///< a polling loop begins here
     uint8_t until;   ///< of the bit that is polled: the loop ends when it is so
 };
 

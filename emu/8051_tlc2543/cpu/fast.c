@@ -180,7 +180,7 @@
 #define JOPD(opcode, access, ...) GOES(acc_, opcode, __VA_ARGS__)
 #include "ops.h"
 
-// It is the latch of a port.
+// It is the latch of a port. Nothing is due in a block; where no pin moves, it is memory.
 #undef READ
 #undef WRITE
 #undef OPD
@@ -188,10 +188,13 @@
 #define READ(x, d) (x = mem[d]);
 #define WRITE(d, v)                                                                                                    \
     {                                                                                                                  \
-        const unsigned written_ = (v);                                                                                 \
-        OUT(OCTETS);                                                                                                   \
-        mcs51_write_port(self, d, U8(written_));                                                                       \
-        IN;                                                                                                            \
+        mem[d] = U8(v);                                                                                                \
+        if (mcs51_port_drives(self, PORT_AT(d)) != self->out[PORT_AT(d)])                                              \
+        {                                                                                                              \
+            OUT(OCTETS);                                                                                               \
+            mcs51_port_drive(self, PORT_AT(d), mcs51_now(self));                                                       \
+            IN;                                                                                                        \
+        }                                                                                                              \
     }
 #define OPD(opcode, access, octets, cycles, ...) HANDLER(port_##opcode, octets, __VA_ARGS__; ip += OCTETS; ENTER)
 #define JOPD(opcode, access, ...)                GOES(port_, opcode, __VA_ARGS__)
@@ -308,12 +311,12 @@ void mcs51_decode_here(ARGUMENTS)
     ENTER
 }
 
-/// Cycles in which the bit that is polled cannot change: to the horizon, or to the overflow that sets it.
-static uint32_t quiet(const mcs51_t* self, const entry_t* ip)
+/// Cycles to the horizon in which no overflow sets the flag in TCON that is polled.
+static uint32_t quiet(const mcs51_t* self, unsigned flag)
 {
     const uint32_t cycles = (uint32_t)mcs51_left(self);
-    const bool tf0 = ip->o2 == 0x20u, tf1 = ip->o2 == 0x80u;
-    if (ip->o1 != TCON || !(tf0 || tf1))
+    const bool tf0 = flag == 0x20u, tf1 = flag == 0x80u;
+    if (!(tf0 || tf1))
     {
         return cycles;
     }
@@ -335,14 +338,14 @@ void mcs51_poll(ARGUMENTS)
     {
         mcs51_timers_sync(self, mcs51_now(self));
     }
-    const unsigned octet = (d & 0xCFu) == P0 ? mcs51_port_pins(self, d >> 4 & 3u) : self->mem[d];
+    const unsigned octet = (d & 0xCFu) == P0 ? mcs51_port_pins(self, PORT_AT(d)) : self->mem[d];
     if (((octet & ip->o2) != 0) == ip->until)
     {
         INSTEAD(mcs51_handlers[ip->operand][ip->opcode])
     }
-    const bool jumps_back = ip->target != ip;
-    self->budget -= (int64_t)(quiet(self, ip) / ip->turn) * MCS51_SPENT(ip->turn, ip->turn / 2u);
-    self->budget -= jumps_back ? MCS51_SPENT(2, 1) : 0;
+    const bool jumps_back = ip->target != ip; // a turn is one instruction of two cycles, or two such
+    const uint32_t instructions = (d == TCON ? quiet(self, ip->o2) : (uint32_t)mcs51_left(self)) / 2u;
+    self->budget -= (int64_t)((instructions & ~(uint32_t)jumps_back) + jumps_back) * MCS51_SPENT(2, 1);
     if (mcs51_left(self) >= 2)
     {
         ENTER

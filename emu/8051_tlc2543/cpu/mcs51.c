@@ -212,7 +212,12 @@ static mcs51_stop_t run(mcs51_t* self)
         if (step == GO_ON)
         {
             mcs51_sync(self, limit);
-            mcs51_overflows(self, limit);
+            if (limit >= self->overflow_at)
+            {
+                mcs51_timers_sync(self, limit);
+                self->overflow_at = MCS51_NEVER;
+                self->overflow_known = false;
+            }
             step = now >= self->attend_at ? attend(self, now, &stop) : GO_ON;
         }
         if (step == LEAVE)

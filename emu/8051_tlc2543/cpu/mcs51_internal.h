@@ -78,8 +78,8 @@ void mcs51_requests_change(mcs51_t* self);
 /// An interrupt is requested that the handler in progress does not hold back.
 static inline bool mcs51_requested(const mcs51_t* self)
 {
-    return ((self->mem[TCON] & self->ask_tcon) | (self->mem[SCON] & self->ask_scon) |
-            (self->mem[T2CON] & self->ask_t2con)) != 0;
+    const uint8_t* const mem = self->mem;
+    return (mem[TCON] & self->ask_tcon) | (mem[SCON] & self->ask_scon) | (mem[T2CON] & self->ask_t2con);
 }
 /// Take the request that is due at this boundary. \return whether one was taken (two cycles passed).
 bool mcs51_interrupt(mcs51_t* self, uint64_t now);
@@ -112,7 +112,6 @@ void mcs51_timers_mode(mcs51_t* self);               ///< TCON, TMOD or a gate h
 void mcs51_timers_fell(mcs51_t* self, uint8_t fell); ///< falls on T0, T1 were sampled
 /// First boundary that an overflow which requests an interrupt can bring; overflow_at becomes the cycle of the overflow.
 uint64_t mcs51_overflow_next(mcs51_t* self);
-void mcs51_overflows(mcs51_t* self, uint64_t t);            ///< fire what of those is due
 uint64_t mcs51_timer_next(const mcs51_t* self, unsigned n); ///< next overflow that sets TFn
 /// \return overflows within k counts; the first is after *first.
 uint64_t mcs51_advance(mcs51_counter_t* c, uint64_t k, uint64_t* first);
@@ -127,18 +126,22 @@ void mcs51_t2_edge(mcs51_t* self, uint64_t at);
 void mcs51_t2_sampled(mcs51_t* self, uint8_t pins, uint64_t at);
 void mcs51_t2_mode_changed(mcs51_t* self, uint64_t now);
 
+#define PORT_AT(address) ((unsigned)(address) >> 4 & 3u)
+static inline uint8_t mcs51_port_drives(const mcs51_t* self, unsigned port)
+{
+    return (uint8_t)(self->mem[P0 + 0x10u * port] & self->alternate[port]);
+}
 void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at);
 uint8_t mcs51_port_pins(const mcs51_t* self, unsigned port);
 void mcs51_alternate(mcs51_t* self, unsigned port, uint8_t mask, bool level, uint64_t at);
 void mcs51_level_requests(mcs51_t* self, uint64_t at);
-void mcs51_pins_sample(mcs51_t* self, uint64_t at);
 
 void mcs51_uart_reset(mcs51_t* self);
-uint64_t mcs51_uart_tx_time(const mcs51_t* self);
-uint64_t mcs51_uart_rx_time(const mcs51_t* self);
+void mcs51_uart_plan(mcs51_t* self); ///< tx_at and rx_at
 void mcs51_uart_tx(mcs51_t* self, uint64_t at);
 void mcs51_uart_clock_changes(mcs51_t* self, uint64_t now); ///< PCON or T2CON is about to be written
 void mcs51_uart_rx(mcs51_t* self, uint64_t at);
+void mcs51_uart_pins_change(mcs51_t* self, uint64_t at); ///< p3_sampled is about to
 void mcs51_uart_rxd_fell(mcs51_t* self, uint64_t at);
 void mcs51_uart_sbuf(mcs51_t* self, uint8_t value, uint64_t now);
 void mcs51_uart_scon(mcs51_t* self, uint8_t old, uint64_t now);

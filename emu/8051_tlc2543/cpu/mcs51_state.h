@@ -63,6 +63,7 @@ typedef struct uart_t
 {
     uint64_t tx_due, rx_due; ///< MCS51_NEVER: nothing under way
     uint32_t tx_frame, rx_frame;
+    uint8_t tx_passed; ///< bits before tx_bit that have not begun
     uint8_t tx_bit, tx_bits, rx_bit, rx_samples, rx_votes;
     uart_rx_state_t rx_state;
 } uart_t;
@@ -107,9 +108,9 @@ struct mcs51_t
     bool overflow_known;        ///< nothing has moved them since
     uint64_t
         attend_at; ///< cycle at which the run loop looks at what is rare: `until`, resets, the watchdog; 0: at once
-    uint64_t periph_at;         ///< next cycle at which the ports or the UART do something
-    uint64_t tx_at, t2_edge_at; ///< of those, the transmitter's and the clock's on T2
-    uint64_t frozen;            ///< cycles spent in power-down, in which no clock ran
+    uint64_t periph_at;                ///< next cycle at which the ports or the UART do something
+    uint64_t tx_at, rx_at, t2_edge_at; ///< of those, the serial port's and the clock's on T2
+    uint64_t frozen;                   ///< cycles spent in power-down, in which no clock ran
     uint64_t wdt_due;
     bool wdt_armed; ///< 1Eh was written to WDTRST
     uint8_t outside[4], out[4];

@@ -75,6 +75,26 @@ static void report_absent(mcs51_t* self, unsigned address)
     }
 }
 
+/// What a register shows of timers; SCON and SBUF only events change.
+static void sync_timers(mcs51_t* self, unsigned address, uint64_t now)
+{
+    switch (address)
+    {
+    case SCON:
+    case SBUF:
+        break;
+    case TL0:
+    case TH0:
+    case TL1:
+    case TH1:
+        mcs51_timer_sync(self, address & 1u, now);
+        break;
+    default:
+        mcs51_timers_sync(self, now);
+        break;
+    }
+}
+
 static uint8_t read_synced(mcs51_t* self, unsigned address)
 {
     if (address == PSW)
@@ -97,10 +117,7 @@ static uint8_t read_synced(mcs51_t* self, unsigned address)
         self->config.sync(self->config.ctx, now);
     }
     mcs51_sync(self, now);
-    if (address != SCON && address != SBUF) // those only events change
-    {
-        mcs51_timers_sync(self, now);
-    }
+    sync_timers(self, address, now);
     return self->mem[address];
 }
 
@@ -130,9 +147,9 @@ uint8_t mcs51_read(mcs51_t* self, unsigned address, unsigned mask)
     mcs51_sync(self, now);
     if (self->config.undriven)
     {
-        look_for_floating(self, (address >> 4) & 3u, mask);
+        look_for_floating(self, PORT_AT(address), mask);
     }
-    return mcs51_port_pins(self, (address >> 4) & 3u);
+    return mcs51_port_pins(self, PORT_AT(address));
 }
 
 uint8_t mcs51_read_latch(mcs51_t* self, unsigned address)

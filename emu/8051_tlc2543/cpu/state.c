@@ -143,10 +143,11 @@ static void pins_and_uart(mcs51_t* self, emu_state_t* io)
     emu_state_u32(io, &u->tx_frame);
     emu_state_u32(io, &u->rx_frame);
     const unsigned mode = self->mem[SCON] >> 6;
-    unsigned tx_bit = u->tx_bit, tx_bits = u->tx_bits, rx_bit = u->rx_bit, samples = u->rx_samples, votes = u->rx_votes,
-             state = (unsigned)u->rx_state;
+    unsigned tx_bit = u->tx_bit, tx_bits = u->tx_bits, tx_passed = u->tx_passed, rx_bit = u->rx_bit,
+             samples = u->rx_samples, votes = u->rx_votes, state = (unsigned)u->rx_state;
     small(io, &tx_bit, FRAME_BITS);
     small(io, &tx_bits, FRAME_BITS);
+    small(io, &tx_passed, tx_bit);
     small(io, &rx_bit, FRAME_BITS);
     small(io, &samples, SAMPLES);
     small(io, &votes, SAMPLES);
@@ -155,6 +156,7 @@ static void pins_and_uart(mcs51_t* self, emu_state_t* io)
     emu_state_check(io, u->rx_due == MCS51_NEVER || rx_bit <= (state == RX_SHIFT ? SHIFT_BITS : FRAME_BITS - 2u));
     u->tx_bit = (uint8_t)tx_bit;
     u->tx_bits = (uint8_t)tx_bits;
+    u->tx_passed = (uint8_t)tx_passed;
     u->rx_bit = (uint8_t)rx_bit;
     u->rx_samples = (uint8_t)samples;
     u->rx_votes = (uint8_t)votes;

@@ -16,14 +16,9 @@ static uint64_t earlier(uint64_t a, uint64_t b)
     return a < b ? a : b;
 }
 
-static uint8_t drive(const mcs51_t* self, unsigned port)
-{
-    return (uint8_t)(self->mem[P0 + 0x10u * port] & self->alternate[port]);
-}
-
 uint8_t mcs51_port_pins(const mcs51_t* self, unsigned port)
 {
-    return (uint8_t)(drive(self, port) & self->outside[port]);
+    return (uint8_t)(mcs51_port_drives(self, port) & self->outside[port]);
 }
 
 static void inputs_changed(mcs51_t* self, unsigned port, uint64_t at)
@@ -38,9 +33,9 @@ static void inputs_changed(mcs51_t* self, unsigned port, uint64_t at)
     }
 }
 
-static inline void port_drive(mcs51_t* self, unsigned port, uint64_t at)
+void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at)
 {
-    const uint8_t out = drive(self, port), changed = out ^ self->out[port];
+    const uint8_t out = mcs51_port_drives(self, port), changed = out ^ self->out[port];
     if (!changed)
     {
         return;
@@ -56,17 +51,12 @@ static inline void port_drive(mcs51_t* self, unsigned port, uint64_t at)
     }
 }
 
-void mcs51_port_drive(mcs51_t* self, unsigned port, uint64_t at)
-{
-    port_drive(self, port, at);
-}
-
 void mcs51_write_port(mcs51_t* self, unsigned address, uint8_t value)
 {
     const uint64_t now = mcs51_now(self);
     mcs51_before_write(self, now);
     self->mem[address] = value;
-    port_drive(self, address >> 4 & 3u, now);
+    mcs51_port_drive(self, PORT_AT(address), now);
 }
 
 void mcs51_alternate(mcs51_t* self, unsigned port, uint8_t mask, bool level, uint64_t at)
@@ -97,9 +87,10 @@ void mcs51_level_requests(mcs51_t* self, uint64_t at)
     }
 }
 
-void mcs51_pins_sample(mcs51_t* self, uint64_t at)
+static void pins_sample(mcs51_t* self, uint64_t at)
 {
     const uint8_t pins = mcs51_port_pins(self, 3), fell = (uint8_t)(self->p3_sampled & ~pins);
+    mcs51_uart_pins_change(self, at);
     mcs51_timers_sync(self, at); // with the old gates
     self->pins_due = MCS51_NEVER;
     self->overflow_known = false;
@@ -124,12 +115,16 @@ void mcs51_pins_sample(mcs51_t* self, uint64_t at)
     }
 }
 
+static void plan_next(mcs51_t* self)
+{
+    self->periph_at = earlier(earlier(self->pins_due, self->t2_edge_at), earlier(self->tx_at, self->rx_at));
+}
+
 void mcs51_plan(mcs51_t* self)
 {
-    self->tx_at = mcs51_uart_tx_time(self);
+    mcs51_uart_plan(self);
     self->t2_edge_at = mcs51_t2_edge_time(self);
-    self->periph_at =
-        earlier(earlier(self->pins_due, self->t2_edge_at), earlier(self->tx_at, mcs51_uart_rx_time(self)));
+    plan_next(self);
 }
 
 void mcs51_sync_events(mcs51_t* self, uint64_t t)
@@ -140,7 +135,8 @@ void mcs51_sync_events(mcs51_t* self, uint64_t t)
         self->periph_at = MCS51_NEVER; // callbacks may come back here
         if (self->pins_due <= at)
         {
-            mcs51_pins_sample(self, at);
+            pins_sample(self, at);
+            mcs51_uart_plan(self); // a gate may have moved the baud
         }
         else if (self->t2_edge_at <= at)
         {
@@ -154,7 +150,7 @@ void mcs51_sync_events(mcs51_t* self, uint64_t t)
         {
             mcs51_uart_rx(self, at);
         }
-        mcs51_plan(self);
+        plan_next(self);
     }
 }
 

@@ -143,6 +143,7 @@ void mcs51_t2_edge(mcs51_t* self, uint64_t at)
     mcs51_t2_sync(self, at);
     const bool high = self->alternate[1] & P1_T2, odd = (self->t2_overflows - self->t2_told) & 1u;
     self->t2_told = self->t2_overflows;
+    self->t2_edge_at = mcs51_t2_edge_time(self);
     mcs51_alternate(self, 1, P1_T2, high != odd, at);
 }
 

@@ -218,16 +218,6 @@ uint64_t mcs51_overflow_next(mcs51_t* self)
     return boundary;
 }
 
-void mcs51_overflows(mcs51_t* self, uint64_t t)
-{
-    if (t >= self->overflow_at)
-    {
-        mcs51_timers_sync(self, t);
-        self->overflow_at = MCS51_NEVER;
-        self->overflow_known = false;
-    }
-}
-
 uint64_t mcs51_t1_time(const mcs51_t* self, uint64_t number)
 {
     if (number <= self->t1_overflows)

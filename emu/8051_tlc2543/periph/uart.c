@@ -11,7 +11,11 @@
 enum
 {
     TICKS_PER_CYCLE = 6, ///< mode 2
-    SHIFT_BITS = 8       ///< mode 0
+    SHIFT_BITS = 8,      ///< mode 0
+    BIT_TICKS = 16,
+    FIRST_SAMPLE = 7,
+    SAMPLES = 3,
+    STOP_BIT = 9 ///< in modes 2 and 3 the ninth
 };
 
 static unsigned uart_mode(const mcs51_t* self)
@@ -71,49 +75,51 @@ static uint64_t cycle_of(const mcs51_t* self, unsigned clock, uint64_t due)
     }
 }
 
-/// Bits from tx_bit on that leave TXD as it is and end nothing.
-static unsigned tx_quiet_bits(const mcs51_t* self)
+/// On to the next bit that changes TXD from `level` or ends the frame; the ones before leave it as it is.
+static void plan_tx(mcs51_t* self, bool level)
 {
-    const uart_t* const u = &self->uart;
-    const uint32_t level = self->alternate[3] & P3_TXD ? UINT32_MAX : 0u;
-    unsigned n = u->tx_bit;
-    if (uart_mode(self) != 0)
+    uart_t* const u = &self->uart;
+    if (u->tx_due != MCS51_NEVER && uart_mode(self) != 0)
     {
-        for (uint32_t differs = (u->tx_frame ^ level) >> n; n + 1u < u->tx_bits && !(differs & 1u); differs >>= 1)
+        const uint32_t differs = u->tx_frame ^ (level ? UINT32_MAX : 0u);
+        unsigned n = u->tx_bit;
+        while (n + 1u < u->tx_bits && !(differs >> n & 1u))
         {
             ++n;
         }
+        const unsigned passed = n - u->tx_bit;
+        u->tx_due += (uint64_t)passed * BIT_TICKS * unit(self, T2CON_TCLK);
+        u->tx_bit = (uint8_t)n;
+        u->tx_passed = (uint8_t)(u->tx_passed + passed);
     }
-    return n - u->tx_bit;
+    self->tx_at = cycle_of(self, T2CON_TCLK, u->tx_due);
 }
 
-static void tx_pass(mcs51_t* self, unsigned bits)
+/// From the next sample to the last one of the frame: before it, nothing shows that RXD does not show.
+static unsigned rx_quiet_ticks(const mcs51_t* self)
 {
-    self->uart.tx_bit = (uint8_t)(self->uart.tx_bit + bits);
-    self->uart.tx_due += (uint64_t)bits * 16u * unit(self, T2CON_TCLK);
-}
-
-void mcs51_uart_clock_changes(mcs51_t* self, uint64_t now)
-{
-    uart_t* const u = &self->uart;
-    for (unsigned n = u->tx_due == MCS51_NEVER ? 0 : tx_quiet_bits(self);
-         n > 0 && u->tx_due <= tick(self, by_t2(self, T2CON_TCLK), now); --n)
+    const uart_t* const u = &self->uart;
+    switch (u->rx_state)
     {
-        tx_pass(self, 1);
+    case RX_WATCH:
+        return (FIRST_SAMPLE + STOP_BIT * BIT_TICKS + SAMPLES - 1u) * unit(self, T2CON_RCLK);
+    case RX_SAMPLE:
+        return (((unsigned)STOP_BIT - u->rx_bit) * BIT_TICKS + SAMPLES - 1u - u->rx_samples) * unit(self, T2CON_RCLK);
+    default:
+        return 0;
     }
 }
 
-uint64_t mcs51_uart_tx_time(const mcs51_t* self)
+static void plan_rx(mcs51_t* self)
 {
-    const uint64_t due = self->uart.tx_due;
-    return due == MCS51_NEVER
-               ? due
-               : cycle_of(self, T2CON_TCLK, due + (uint64_t)tx_quiet_bits(self) * 16u * unit(self, T2CON_TCLK));
+    const uint64_t due = self->uart.rx_due;
+    self->rx_at = due == MCS51_NEVER ? due : cycle_of(self, T2CON_RCLK, due + rx_quiet_ticks(self));
 }
 
-uint64_t mcs51_uart_rx_time(const mcs51_t* self)
+void mcs51_uart_plan(mcs51_t* self)
 {
-    return cycle_of(self, T2CON_RCLK, self->uart.rx_due);
+    plan_tx(self, self->alternate[3] & P3_TXD);
+    plan_rx(self);
 }
 
 static void rx_stop(uart_t* u)
@@ -136,17 +142,16 @@ void mcs51_uart_sbuf(mcs51_t* self, uint8_t value, uint64_t now)
     {
         mcs51_report(self, EMU_GUEST_ERROR, 0, "SBUF written before TI: the octet being sent is cut off", value);
     }
-    u->tx_bit = 0;
+    u->tx_bit = u->tx_passed = 0;
     if (mode == 0)
     {
         u->tx_frame = value;
         u->tx_due = now - self->frozen + 1u;
         return;
     }
-    const unsigned ninth = mode == 1 ? 1u : (unsigned)self->mem[SCON] / SCON_TB8 & 1u;
-    u->tx_frame = 1u << 10 | ninth << 9 | (unsigned)value << 1;
+    u->tx_frame = 1u << 10 | (mode == 1 || (self->mem[SCON] & SCON_TB8) ? 1u << 9 : 0u) | (unsigned)value << 1;
     u->tx_bits = mode == 1 ? 10 : 11;
-    u->tx_due = rollover(self, T2CON_TCLK, 16u, now);
+    u->tx_due = rollover(self, T2CON_TCLK, BIT_TICKS, now);
 }
 
 /// Mode 0: one bit a cycle; the shift clock falls and rises within it, RXD is driven or sampled in between.
@@ -155,7 +160,7 @@ static void shift_out(mcs51_t* self, uint64_t at)
     uart_t* const u = &self->uart;
     if (u->tx_bit == SHIFT_BITS)
     {
-        u->tx_due = MCS51_NEVER;
+        u->tx_due = self->tx_at = MCS51_NEVER;
         mcs51_alternate(self, 3, P3_RXD, true, at);
         mcs51_raise(self, IRQ_SERIAL, SCON, SCON_TI, at);
         return;
@@ -163,6 +168,7 @@ static void shift_out(mcs51_t* self, uint64_t at)
     const bool level = u->tx_frame >> u->tx_bit & 1u;
     ++u->tx_bit;
     ++u->tx_due;
+    self->tx_at = at + 1u;
     mcs51_alternate(self, 3, P3_RXD, level, at);
     mcs51_alternate(self, 3, P3_TXD, false, at);
     mcs51_alternate(self, 3, P3_TXD, true, at);
@@ -176,8 +182,8 @@ void mcs51_uart_tx(mcs51_t* self, uint64_t at)
         shift_out(self, at);
         return;
     }
-    tx_pass(self, tx_quiet_bits(self));
     const bool level = u->tx_frame >> u->tx_bit & 1u;
+    u->tx_passed = 0;
     if (++u->tx_bit == u->tx_bits)
     {
         u->tx_due = MCS51_NEVER;
@@ -185,8 +191,9 @@ void mcs51_uart_tx(mcs51_t* self, uint64_t at)
     }
     else
     {
-        u->tx_due += 16u * unit(self, T2CON_TCLK);
+        u->tx_due += BIT_TICKS * unit(self, T2CON_TCLK);
     }
+    plan_tx(self, level);
     mcs51_alternate(self, 3, P3_TXD, level, at);
 }
 
@@ -213,24 +220,16 @@ static void shift_in(mcs51_t* self, uint64_t at)
     if (u->rx_bit == SHIFT_BITS)
     {
         rx_stop(u);
+        self->rx_at = MCS51_NEVER;
         self->mem[SBUF] = (uint8_t)u->rx_frame;
         mcs51_raise(self, IRQ_SERIAL, SCON, SCON_RI, at);
         return;
     }
     ++u->rx_due;
+    self->rx_at = at + 1u;
     mcs51_alternate(self, 3, P3_TXD, false, at);
     u->rx_frame = u->rx_frame | (mcs51_port_pins(self, 3) & (uint32_t)P3_RXD) << u->rx_bit++;
     mcs51_alternate(self, 3, P3_TXD, true, at);
-}
-
-void mcs51_uart_rxd_fell(mcs51_t* self, uint64_t at)
-{
-    uart_t* const u = &self->uart;
-    if (u->rx_state == RX_IDLE && uart_mode(self) != 0 && (self->mem[SCON] & SCON_REN))
-    {
-        u->rx_state = RX_WATCH;
-        u->rx_due = rollover(self, T2CON_RCLK, 1u, at);
-    }
 }
 
 /// A bit has its three samples.
@@ -245,10 +244,10 @@ static void rx_bit(mcs51_t* self, bool level, uint64_t at)
         return;
     }
     u->rx_frame = u->rx_frame | (uint32_t)level << u->rx_bit;
-    if (u->rx_bit < 9)
+    if (u->rx_bit < STOP_BIT)
     {
         ++u->rx_bit;
-        u->rx_due += 14u * unit(self, T2CON_RCLK);
+        u->rx_due += (BIT_TICKS - SAMPLES + 1u) * unit(self, T2CON_RCLK);
         return;
     }
     if (uart_mode(self) == 1)
@@ -258,20 +257,18 @@ static void rx_bit(mcs51_t* self, bool level, uint64_t at)
     else
     {
         u->rx_state = RX_WAIT;
-        u->rx_due += 16u * unit(self, T2CON_RCLK);
+        u->rx_due += BIT_TICKS * unit(self, T2CON_RCLK);
     }
     received(self, (uint8_t)(u->rx_frame >> 1), level, at);
 }
 
-void mcs51_uart_rx(mcs51_t* self, uint64_t at)
+/// A tick for which the receiver waits, in modes 1 to 3.
+static void rx_tick(mcs51_t* self, uint64_t at)
 {
     uart_t* const u = &self->uart;
     const bool level = self->p3_sampled & P3_RXD;
     switch (u->rx_state)
     {
-    case RX_SHIFT:
-        shift_in(self, at);
-        break;
     case RX_WATCH:
         if (level)
         {
@@ -281,13 +278,13 @@ void mcs51_uart_rx(mcs51_t* self, uint64_t at)
         u->rx_state = RX_SAMPLE;
         u->rx_bit = u->rx_samples = u->rx_votes = 0;
         u->rx_frame = 0;
-        u->rx_due += 7u * unit(self, T2CON_RCLK);
+        u->rx_due += FIRST_SAMPLE * unit(self, T2CON_RCLK);
         break;
     case RX_SAMPLE:
         u->rx_votes = (uint8_t)(u->rx_votes + level);
-        if (++u->rx_samples == 3)
+        if (++u->rx_samples == SAMPLES)
         {
-            rx_bit(self, u->rx_votes >= 2, at);
+            rx_bit(self, u->rx_votes > SAMPLES / 2u, at);
         }
         else
         {
@@ -298,6 +295,63 @@ void mcs51_uart_rx(mcs51_t* self, uint64_t at)
         rx_stop(u);
         break;
     }
+}
+
+/// Take the samples up to a cycle, since which RXD has been as it is.
+static void rx_catch_up(mcs51_t* self, uint64_t at)
+{
+    uart_t* const u = &self->uart;
+    if (u->rx_due != MCS51_NEVER && u->rx_state != RX_SHIFT)
+    {
+        const uint64_t until = tick(self, by_t2(self, T2CON_RCLK), at);
+        while (u->rx_due <= until)
+        {
+            rx_tick(self, at);
+        }
+    }
+}
+
+void mcs51_uart_rx(mcs51_t* self, uint64_t at)
+{
+    if (self->uart.rx_state == RX_SHIFT)
+    {
+        shift_in(self, at);
+        return;
+    }
+    rx_catch_up(self, at);
+    plan_rx(self);
+}
+
+void mcs51_uart_pins_change(mcs51_t* self, uint64_t at)
+{
+    rx_catch_up(self, at - 1u);
+}
+
+void mcs51_uart_rxd_fell(mcs51_t* self, uint64_t at)
+{
+    uart_t* const u = &self->uart;
+    if (u->rx_state == RX_IDLE && uart_mode(self) != 0 && (self->mem[SCON] & SCON_REN))
+    {
+        u->rx_state = RX_WATCH;
+        u->rx_due = rollover(self, T2CON_RCLK, 1u, at);
+    }
+}
+
+/// What has begun goes on with the new clock; bits that plan_tx() has passed over have not.
+void mcs51_uart_clock_changes(mcs51_t* self, uint64_t now)
+{
+    uart_t* const u = &self->uart;
+    if (u->tx_due != MCS51_NEVER && uart_mode(self) != 0)
+    {
+        const uint64_t bit = BIT_TICKS * unit(self, T2CON_TCLK), begun = tick(self, by_t2(self, T2CON_TCLK), now);
+        for (; u->tx_passed > 0 && u->tx_due > begun + bit; --u->tx_passed)
+        {
+            u->tx_due -= bit;
+            --u->tx_bit;
+        }
+        u->tx_passed = 0;
+    }
+    rx_catch_up(self, now);
 }
 
 void mcs51_uart_scon(mcs51_t* self, uint8_t old, uint64_t now)
