@@ -1,5 +1,6 @@
 # The device without program and parts, also for whoever compiles it into a board program.
 set(F2812_SOURCES
+  cpu/access.c
   cpu/blocks.c
   cpu/bus.c
   cpu/device.c

@@ -37,7 +37,9 @@ typedef struct f2812_watchdog_t
 typedef struct f2812_pin_t
 {
     emu_wire_t wire;
-    char name[8]; ///< "GPIOA15"
+    char name[8];  ///< "GPIOA15"; empty: there is no such pin
+    uint16_t* dat; ///< GPxDAT, its bit
+    uint16_t bit;
     int driver;
 } f2812_pin_t;
 
@@ -72,7 +74,7 @@ struct f2812_t
     f2812_timer_t timer[F2812_TIMERS];
     f2812_watchdog_t watchdog;
     uint64_t xint_edge[F2812_XINTS]; ///< cycle of the last one
-    uint16_t latch[F2812_PORTS];
+    uint16_t latch[F2812_PORTS], outputs[F2812_PORTS];
     f2812_pin_t pin[F2812_PORTS][F2812_PORT_PINS];
     f2812_serial_t serial[F2812_SCIS];
     emu_wire_t xrs;
@@ -100,8 +102,13 @@ static inline emu_time_t f2812_sync(f2812_t* self)
     return self->sched->now;
 }
 
-/// cpu/bus.c
+/// cpu/access.c
 void f2812_map_reset(f2812_t* self);
+void f2812_map_clocks(f2812_t* self); ///< PCLKCR has come into force
+/// An access that is more than memory.
+uint16_t f2812_access_read(f2812_t* self, uint16_t address);
+void f2812_access_write(f2812_t* self, uint16_t address, uint16_t value);
+uint16_t f2812_access_peek(const f2812_t* self, uint16_t address);
 /// What there is to say of an address, headed by its name.
 void f2812_report(f2812_t* self, emu_report_kind_t kind, uint16_t address, const char* text);
 /// The same, once for each bit of `once` after a reset.
@@ -144,7 +151,6 @@ void f2812_timers_plan(f2812_t* self);
 /// periph/gpio.c
 void f2812_gpio_init(f2812_t* self);
 void f2812_gpio_reset(f2812_t* self);
-uint16_t f2812_gpio_peek(const f2812_t* self, uint16_t address);
 void f2812_gpio_write(f2812_t* self, uint16_t address, uint16_t value);
 
 /// periph/serial.c
@@ -154,7 +160,8 @@ void f2812_serial_clocks(f2812_t* self);        ///< PCLKCR has come into force
 void f2812_serial_clock_changed(f2812_t* self); ///< LSPCLK has another rate
 void f2812_serial_pins(f2812_t* self);          ///< GPFMUX or GPGMUX was written
 uint16_t f2812_serial_read(f2812_t* self, uint16_t address);
-uint16_t f2812_serial_peek(const f2812_t* self, uint16_t address);
+/// What a read gives; if `plain`, NULL where it does more than that.
+const uint16_t* f2812_serial_value(const f2812_t* self, uint16_t address, bool plain);
 void f2812_serial_write(f2812_t* self, uint16_t address, uint16_t value);
 
 /// periph/xint.c

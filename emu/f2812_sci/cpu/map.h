@@ -61,10 +61,11 @@ enum
     F2812_EALLOW = 1,
     F2812_READS_MEMORY = 2,  ///< reading is not its owner's matter
     F2812_WRITES_MEMORY = 4, ///< nor is writing
-    F2812_TOLD_NOBODY = 8,   ///< from here on: what was reported of it since the last reset
-    F2812_TOLD_EALLOW = 16,
-    F2812_TOLD_CLOCK = 32,
-    F2812_TOLD_NOT_MODELLED = 64
+    F2812_FINE = 8,          ///< there is nothing to say about an access, but for EALLOW
+    F2812_TOLD_NOBODY = 16,  ///< from here on: what was reported of it since the last reset
+    F2812_TOLD_EALLOW = 32,
+    F2812_TOLD_CLOCK = 64,
+    F2812_TOLD_NOT_MODELLED = 128
 };
 
 typedef struct f2812_register_t
@@ -93,6 +94,7 @@ extern const size_t f2812_block_count;
 /// The map's row of an address: what the table above says, as it is looked up.
 typedef struct f2812_slot_t
 {
+    const uint16_t* value;  ///< what a read gives, if that is all there is to it; NULL: ask the reader
     uint8_t reader, writer; ///< f2812_unit_t; F2812_MEMORY: mem[] is all there is to it
     uint8_t clock, flags;
     uint16_t writable;

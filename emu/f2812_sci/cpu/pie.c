@@ -63,9 +63,12 @@ void f2812_pie_write(f2812_t* self, uint16_t address, uint16_t value)
     else if (address == PIEACK)
     {
         self->mem[PIEACK] &= (uint16_t)~value;
-        for (unsigned group = 0; group < F2812_GROUPS; group++)
+        for (unsigned group = 0; (value & writable) >> group != 0; group++)
         {
-            send(self, group);
+            if ((value >> group & 1u) != 0)
+            {
+                send(self, group);
+            }
         }
     }
     else

@@ -27,11 +27,11 @@
 #define PORT(offset, p, pins)                                                                                          \
     {GPIO_MUX + (offset), "GP" p "MUX", F2812_GPIO, 0, EALLOW | READS, 0, (pins)},                                     \
         {GPIO_MUX + (offset) + 1, "GP" p "DIR", F2812_GPIO, 0, EALLOW | READS, 0, (pins)},                             \
-        {GPIO_DATA + (offset), "GP" p "DAT", F2812_GPIO, 0, 0, 0, (pins)},                                             \
-        {GPIO_DATA + (offset) + 1, "GP" p "SET", F2812_GPIO, 0, 0, 0, (pins)},                                         \
-        {GPIO_DATA + (offset) + 2, "GP" p "CLEAR", F2812_GPIO, 0, 0, 0, (pins)},                                       \
+        {GPIO_DATA + (offset), "GP" p "DAT", F2812_GPIO, 0, READS, 0, (pins)},                                         \
+        {GPIO_DATA + (offset) + 1, "GP" p "SET", F2812_GPIO, 0, READS, 0, (pins)},                                     \
+        {GPIO_DATA + (offset) + 2, "GP" p "CLEAR", F2812_GPIO, 0, READS, 0, (pins)},                                   \
     {                                                                                                                  \
-        GPIO_DATA + (offset) + 3, "GP" p "TOGGLE", F2812_GPIO, 0, 0, 0, (pins)                                         \
+        GPIO_DATA + (offset) + 3, "GP" p "TOGGLE", F2812_GPIO, 0, READS, 0, (pins)                                     \
     }
 #define QUAL(offset, p)                                                                                                \
     {                                                                                                                  \

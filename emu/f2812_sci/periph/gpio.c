@@ -2,7 +2,7 @@
 /// \brief  GPIO ports A, B, D, E, F, G: MUX, DIR, DAT, SET, CLEAR, TOGGLE (TI SPRS174, SPRU078).
 ///
 /// A pin that MUX leaves to GPIO and DIR makes an output is driven with its latch; any other has its pull-up only, as if all pins had one.
-/// DAT reads the pins' levels, whoever drives them. The qualifier (GPxQUAL) reads back and does nothing.
+/// DAT holds the pins' levels, whoever drives them. The qualifier (GPxQUAL) reads back and does nothing.
 /// SPDX-License-Identifier: MIT
 #include "../cpu/device.h"
 #include <stdio.h>
@@ -40,20 +40,41 @@ static uint16_t mux_register(const f2812_t* self, unsigned port, unsigned which)
     return self->mem[GPIO_MUX + offset_of[port] + which];
 }
 
-static void drive(f2812_t* self, unsigned port)
+/// Pins of a port that have to be driven anew.
+static void drive(f2812_t* self, unsigned port, unsigned pins)
 {
-    const unsigned outputs = mux_register(self, port, DIR) & (unsigned)~mux_register(self, port, MUX);
-    for (unsigned bit = 0; bit < F2812_PORT_PINS; bit++)
+    for (unsigned bit = 0; pins >> bit != 0; bit++)
     {
         f2812_pin_t* const pin = &self->pin[port][bit];
-        if (pin->name[0] == '\0')
+        if ((pins >> bit & 1u) != 0 && pin->dat != NULL)
         {
-            continue;
+            const bool high = (self->latch[port] & pin->bit) != 0, output = (self->outputs[port] & pin->bit) != 0;
+            const emu_drive_t drive = !output ? EMU_WEAK1 : high ? EMU_STRONG1 : EMU_STRONG0;
+            emu_wire_drive(&pin->wire, pin->driver, drive, self->sched->now);
         }
-        const bool high = (self->latch[port] >> bit & 1u) != 0;
-        const emu_drive_t drive = (outputs >> bit & 1u) == 0 ? EMU_WEAK1 : high ? EMU_STRONG1 : EMU_STRONG0;
-        emu_wire_drive(&pin->wire, pin->driver, drive, self->sched->now);
     }
+}
+
+static void set_outputs(f2812_t* self, unsigned port)
+{
+    const uint16_t outputs = mux_register(self, port, DIR) & (uint16_t)~mux_register(self, port, MUX);
+    const unsigned changed = outputs ^ self->outputs[port];
+    self->outputs[port] = outputs;
+    drive(self, port, changed);
+}
+
+static void set_latch(f2812_t* self, unsigned port, uint16_t latch)
+{
+    const unsigned changed = (latch ^ self->latch[port]) & self->outputs[port];
+    self->latch[port] = latch;
+    drive(self, port, changed);
+}
+
+static void pin_moved(void* ctx, bool level, emu_time_t at)
+{
+    (void)at;
+    const f2812_pin_t* const pin = ctx;
+    *pin->dat = (uint16_t)(level ? *pin->dat | pin->bit : *pin->dat & ~pin->bit);
 }
 
 void f2812_gpio_init(f2812_t* self)
@@ -61,15 +82,18 @@ void f2812_gpio_init(f2812_t* self)
     f2812_map_reset(self);
     for (unsigned port = 0; port < F2812_PORTS; port++)
     {
-        const unsigned pins = self->map[GPIO_DATA + offset_of[port]].writable;
+        const unsigned dat = GPIO_DATA + offset_of[port], pins = self->map[dat].writable;
         for (unsigned bit = 0; bit < F2812_PORT_PINS; bit++)
         {
             f2812_pin_t* const pin = &self->pin[port][bit];
             if ((pins >> bit & 1u) != 0)
             {
                 (void)snprintf(pin->name, sizeof pin->name, "GPIO%c%u", letter_of[port], bit & 15u);
+                pin->dat = &self->mem[dat];
+                pin->bit = (uint16_t)(1u << bit);
                 emu_wire_init(&pin->wire, pin->name, true);
                 pin->driver = emu_wire_add_driver(&pin->wire);
+                (void)emu_wire_watch(&pin->wire, pin_moved, pin); // the first on it
             }
         }
     }
@@ -79,20 +103,17 @@ void f2812_gpio_reset(f2812_t* self)
 {
     for (unsigned port = 0; port < F2812_PORTS; port++)
     {
-        self->latch[port] = 0;
-        drive(self, port);
+        self->latch[port] = self->outputs[port] = 0;
+        for (unsigned bit = 0; bit < F2812_PORT_PINS; bit++)
+        {
+            const f2812_pin_t* const pin = &self->pin[port][bit];
+            if (pin->dat != NULL && pin->wire.level)
+            {
+                *pin->dat |= pin->bit;
+            }
+        }
+        drive(self, port, self->map[GPIO_DATA + offset_of[port]].writable);
     }
-}
-
-uint16_t f2812_gpio_peek(const f2812_t* self, uint16_t address)
-{
-    const unsigned offset = (unsigned)address - GPIO_DATA, port = port_at(offset);
-    unsigned levels = 0;
-    for (unsigned bit = 0; bit < F2812_PORT_PINS && offset % PORT_WORDS == DAT; bit++)
-    {
-        levels |= (self->pin[port][bit].wire.level ? 1u : 0u) << bit; // no level where there is no pin
-    }
-    return (uint16_t)levels;
 }
 
 void f2812_gpio_write(f2812_t* self, uint16_t address, uint16_t value)
@@ -101,7 +122,7 @@ void f2812_gpio_write(f2812_t* self, uint16_t address, uint16_t value)
     if (address < GPIO_DATA)
     {
         self->mem[address] = value;
-        drive(self, port_at((unsigned)address - GPIO_MUX));
+        set_outputs(self, port_at((unsigned)address - GPIO_MUX));
         f2812_serial_pins(self);
         return;
     }
@@ -110,17 +131,16 @@ void f2812_gpio_write(f2812_t* self, uint16_t address, uint16_t value)
     switch (offset % PORT_WORDS)
     {
     case DAT:
-        self->latch[port] = value;
+        set_latch(self, port, value);
         break;
     case SET:
-        self->latch[port] = latch | value;
+        set_latch(self, port, latch | value);
         break;
     case CLEAR:
-        self->latch[port] = latch & (uint16_t)~value;
+        set_latch(self, port, latch & (uint16_t)~value);
         break;
     default: // TOGGLE
-        self->latch[port] = latch ^ value;
+        set_latch(self, port, latch ^ value);
         break;
     }
-    drive(self, port);
 }

@@ -12,6 +12,7 @@
 #define SCIRXINTA   (F2812_VECTOR_PIE + 64u) ///< SCITXINTA, SCIRXINTB, SCITXINTB behind it
 #define SCIAENCLK   10u
 #define OFFSET_MASK 0x000Fu
+#define SCIRXBUF    7u ///< the one whose reading does something
 
 static void requested(void* ctx, bool tx)
 {
@@ -79,22 +80,23 @@ void f2812_serial_pins(f2812_t* self)
     }
 }
 
-static sci_t* sci_at(f2812_t* self, uint16_t address)
+static unsigned number(uint16_t address)
 {
-    return &self->serial[address < SCIB ? 0 : 1].sci;
+    return address < SCIB ? 0 : 1;
 }
 
 uint16_t f2812_serial_read(f2812_t* self, uint16_t address)
 {
-    return sci_read(sci_at(self, address), address & OFFSET_MASK);
+    return sci_read(&self->serial[number(address)].sci, address & OFFSET_MASK);
 }
 
-uint16_t f2812_serial_peek(const f2812_t* self, uint16_t address)
+const uint16_t* f2812_serial_value(const f2812_t* self, uint16_t address, bool plain)
 {
-    return sci_peek(&self->serial[address < SCIB ? 0 : 1].sci, address & OFFSET_MASK);
+    const unsigned offset = address & OFFSET_MASK;
+    return plain && offset == SCIRXBUF ? NULL : &self->serial[number(address)].sci.reg[offset];
 }
 
 void f2812_serial_write(f2812_t* self, uint16_t address, uint16_t value)
 {
-    sci_write(sci_at(self, address), address & OFFSET_MASK, value);
+    sci_write(&self->serial[number(address)].sci, address & OFFSET_MASK, value);
 }

@@ -39,6 +39,7 @@ static void clocks_change(void* ctx, emu_time_t at)
     (void)at;
     f2812_t* const self = ctx;
     self->clocks = self->mem[PCLKCR];
+    f2812_map_clocks(self);
     f2812_serial_clocks(self);
 }
 
@@ -65,6 +66,7 @@ void f2812_sysctl_reset(f2812_t* self)
     emu_sched_cancel(self->sched, &self->clocks_change);
     emu_ticker_clock(&self->sysclk, self->cycle, &clock);
     self->clocks = 0;
+    f2812_map_clocks(self);
     divide(self);
 }
 
