@@ -4,6 +4,8 @@
 #include "board_module.hpp"
 #include "emu_f2812/registers.h"
 #include "net.hpp"
+#include "net_listeners.hpp"
+#include "states.hpp"
 #include <cmath>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
@@ -26,7 +28,7 @@ namespace
 {
 
 using Register = std::variant<int, std::string>; ///< word address or name
-using Rows = nb::ndarray<nb::numpy, int64_t, nb::ndim<2>>;
+template <typename T> using Rows = nb::ndarray<nb::numpy, T, nb::ndim<2>>;
 
 constexpr std::array<const char*, 4> access_names = {"", "read", "write", "any"}; ///< by F2812_ACCESS_...
 
@@ -49,10 +51,10 @@ uint16_t address_of(const Register& reg)
     return static_cast<uint16_t>(address);
 }
 
-Rows rows(size_t columns, std::vector<int64_t>&& values)
+template <typename T> Rows<T> rows(size_t columns, std::vector<T>&& values)
 {
-    auto* kept = new std::vector<int64_t>(std::move(values));
-    const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<int64_t>*>(p); });
+    auto* kept = new std::vector<T>(std::move(values));
+    const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
     return {kept->data(), {kept->size() / columns, columns}, owner};
 }
 
@@ -110,10 +112,61 @@ nb::dict host_counters(Net& net, const std::string& host)
     d["framing_errors"] = end.framing_errors;
     d["false_starts"] = end.false_starts;
     d["overflow"] = end.overflow;
+    Listener* const listener = net.get<HostStation>(host).listener();
+    if (const auto* const codes = dynamic_cast<const CodesListener*>(listener))
+    {
+        put_counts(d, codes->navigator.link.counts);
+        d["corrupt_accepted"] = codes->navigator.corrupt_accepted;
+    }
+    if (const auto* const blocks = dynamic_cast<const BlocksListener*>(listener))
+    {
+        put_counts(d, blocks->counts());
+    }
     return d;
 }
 
-Rows take_edges(Net& net)
+template <typename T> T& listener_of(Net& net, const std::string& host, const char* what)
+{
+    T* const listener = dynamic_cast<T*>(net.get<HostStation>(host).listener());
+    if (listener == nullptr)
+    {
+        throw std::invalid_argument(host + ": it has no " + what + "; see host_codes() and host_nav()");
+    }
+    return *listener;
+}
+
+nb::tuple take_states(Net& net, const std::string& host)
+{
+    return states_table(listener_of<CodesListener>(net, host, "states").navigator.take_states());
+}
+
+constexpr size_t solution_columns = 25;
+
+/// A row each (SOLUTION_COLUMNS), and each as the octets of an ins_nav_solution_t.
+nb::tuple take_solutions(Net& net, const std::string& host)
+{
+    std::vector<double> values;
+    nb::list raw;
+    for (const auto& [at, s] : listener_of<BlocksListener>(net, host, "solutions").take_solutions())
+    {
+        values.insert(values.end(), {static_cast<double>(at) * 1e-12, static_cast<double>(s.index), s.t_s});
+        values.insert(values.end(), std::begin(s.q_nb), std::end(s.q_nb));
+        values.insert(values.end(), std::begin(s.euler_rad), std::end(s.euler_rad));
+        values.insert(values.end(), std::begin(s.en_m), std::end(s.en_m));
+        values.insert(values.end(), std::begin(s.lat_lon_rad), std::end(s.lat_lon_rad));
+        values.insert(values.end(), std::begin(s.v_en_m_s), std::end(s.v_en_m_s));
+        values.push_back(s.fix_age_s);
+        for (const uint64_t v : {uint64_t{s.sats}, uint64_t{s.zone}, uint64_t{s.seq}, uint64_t{s.lost},
+                                 uint64_t{s.status}, s.counts.accepted, s.counts.lost, s.counts.corrupt})
+        {
+            values.push_back(static_cast<double>(v));
+        }
+        raw.append(nb::bytes(&s, sizeof s));
+    }
+    return nb::make_tuple(rows<double>(solution_columns, std::move(values)), raw);
+}
+
+Rows<int64_t> take_edges(Net& net)
 {
     std::vector<int64_t> values;
     for (const TracedEdge& edge : net.take_edges())
@@ -123,7 +176,7 @@ Rows take_edges(Net& net)
     return rows(3, std::move(values));
 }
 
-Rows take_records(Net& net, const std::string& station)
+Rows<int64_t> take_records(Net& net, const std::string& station)
 {
     std::vector<int64_t> values;
     for (const f2812_link_record_t& record : net.get<F2812Station>(station).take_records())
@@ -217,7 +270,22 @@ void bind_stations(nb::class_<Net>& net)
             "host",
             [](Net& self, const std::string& name, double baud)
             { self.add(std::make_unique<HostStation>(name, baud, nullptr)); },
-            "name"_a, "baud"_a)
+            "name"_a, "baud"_a, "Octets for somebody outside.")
+        .def(
+            "host_codes",
+            [](Net& self, const std::string& name, double baud, const std::string& board, const ins_nav_config_t& nav,
+               bool start_at_truth)
+            {
+                auto listener = std::make_unique<CodesListener>(nav, start_at_truth, self.get<AcqStation>(board));
+                self.add(std::make_unique<HostStation>(name, baud, std::move(listener)));
+            },
+            "name"_a, "baud"_a, "board"_a, "nav"_a, "start_at_truth"_a = true,
+            "The host and navigator of an acquisition board, as in Run.")
+        .def(
+            "host_nav",
+            [](Net& self, const std::string& name, double baud)
+            { self.add(std::make_unique<HostStation>(name, baud, std::make_unique<BlocksListener>())); },
+            "name"_a, "baud"_a, "The host of a navigating board (ins_nav/nav_input.h).")
         .def("line", line, "a"_a, "b"_a, "baud"_a, "delay_s"_a = 0.0, "bit_error"_a = 0.0, "octet_loss"_a = 0.0,
              "cuts_s"_a = std::vector<std::array<double, 2>>())
         .def(
@@ -275,6 +343,10 @@ void bind_boards(nb::class_<Net>& net)
 void bind_net(nb::module_& module)
 {
     nb::exception<ProgramError>(module, "ProgramError", PyExc_RuntimeError);
+    module.attr("SOLUTION_COLUMNS") =
+        nb::make_tuple("at_s", "index", "t_s", "q_w", "q_x", "q_y", "q_z", "roll_rad", "pitch_rad", "heading_rad",
+                       "easting_m", "northing_m", "lat_rad", "lon_rad", "v_e_m_s", "v_n_m_s", "fix_age_s", "sats",
+                       "zone", "seq", "lost", "status", "accepted_total", "lost_total", "corrupt_total");
     module.attr("RECORD_COLUMNS") = nb::make_tuple("t_ps", "what", "address", "value");
     module.attr("RECORD_WHAT") = nb::make_tuple("read", "write", "interrupt", "return");
     module.def(
@@ -305,6 +377,8 @@ void bind_net(nb::module_& module)
         .def("take_octets", take_octets, "host"_a)
         .def("take_received", take_received, "host"_a)
         .def("host_counters", host_counters, "host"_a)
+        .def("take_states", take_states, "host"_a)
+        .def("take_solutions", take_solutions, "host"_a)
         .def("trace", &Net::trace, "station"_a, "wire"_a)
         .def("take_edges", take_edges)
         .def("add_fault", &Net::add_fault, "station"_a, "fault"_a)

@@ -1,7 +1,6 @@
 /// \file   run.cpp
 /// \brief  See run.hpp. SPDX-License-Identifier: MIT
 #include "run.hpp"
-#include "ins_truth/elementary.h"
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -11,26 +10,6 @@ namespace libins
 {
 namespace
 {
-
-constexpr emu_time_t ms = 1'000'000'000;
-constexpr double pi = 3.14159265358979323846;
-/// A block is looked for among the scans of this many periods before it was accepted: the board sends its newest scan, and gives a
-/// block up long before.
-constexpr size_t origin_window = 64;
-
-double wrapped(double angle)
-{
-    return angle - 2.0 * pi * std::floor((angle + pi) / (2.0 * pi));
-}
-
-/// Roll, pitch, yaw (ZYX) without libm, so that a score has the same bits everywhere.
-std::array<double, 3> euler_of(const double q[4])
-{
-    const double sine = std::clamp(2.0 * (q[0] * q[2] - q[1] * q[3]), -1.0, 1.0);
-    return {ins_truth_atan2(2.0 * (q[2] * q[3] + q[0] * q[1]), q[0] * q[0] - q[1] * q[1] - q[2] * q[2] + q[3] * q[3]),
-            ins_truth_atan2(sine, std::sqrt(1.0 - sine * sine)),
-            ins_truth_atan2(2.0 * (q[1] * q[2] + q[0] * q[3]), q[0] * q[0] + q[1] * q[1] - q[2] * q[2] - q[3] * q[3])};
-}
 
 emu_time_t picoseconds(double seconds)
 {
@@ -49,11 +28,7 @@ Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const in
     }
     if (config_.nav)
     {
-        if (const char* problem = ins_nav_config_problem(&*config_.nav))
-        {
-            throw std::invalid_argument(problem);
-        }
-        ins_nav_link_init(&link_, &*config_.nav);
+        navigator_.begin(*config_.nav, config_.start_at_truth);
     }
     emu_sched_init(&sched_);
     acq_board_config_t board;
@@ -146,7 +121,7 @@ bool Run::until(emu_time_t t)
         halted_ = stop == MCS51_HALTED;
         if (config_.nav)
         {
-            ins_nav_link_tick(&link_, static_cast<uint64_t>(sched_.now / ms));
+            navigator_.tick(sched_.now);
         }
         if (stop == MCS51_STOPPED)
         {
@@ -253,80 +228,10 @@ void Run::on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at)
     {
         return; // a UART hands no octet on without its stop bit; the end counts it
     }
-    int reply = -1;
-    ins_nav_sample_t sample;
-    // A time-out shows in what it makes of the next octet: it is looked for then, and not each millisecond.
-    ins_nav_link_tick(&self.link_, static_cast<uint64_t>(at / ms));
-    const int fresh = ins_nav_link_octet(&self.link_, octet, static_cast<uint64_t>(at / ms), &reply, &sample);
-    if (reply >= 0)
+    if (const int reply = self.navigator_.octet(octet, at, self.scans, self.motion_.get()); reply >= 0)
     {
         emu_serial_end_send(&self.end_, static_cast<uint8_t>(reply));
     }
-    if (fresh == 1)
-    {
-        self.navigate(sample, at);
-    }
-}
-
-/// The scan a block came from: the one its sequence number says, else the newest with the same codes. Nothing if there is none: the
-/// block was changed on the way and its sum did not show it.
-std::optional<size_t> Run::origin_of(const ins_nav_sample_t& sample) const
-{
-    const auto same = [&](size_t i) { return std::equal(scans[i].code.begin(), scans[i].code.end(), sample.code); };
-    const size_t numbered = first_scan_ + sample.index;
-    if (started_ && config_.nav->seq != 0 && numbered < scans.size() && same(numbered))
-    {
-        return numbered;
-    }
-    const size_t oldest = std::max(last_scan_, scans.size() > origin_window ? scans.size() - origin_window : 0);
-    for (size_t i = scans.size(); i-- > oldest;)
-    {
-        if (same(i))
-        {
-            return i;
-        }
-    }
-    return std::nullopt;
-}
-
-void Run::navigate(const ins_nav_sample_t& sample, emu_time_t at)
-{
-    const std::optional<size_t> origin = origin_of(sample);
-    corrupt_accepted += origin ? 0 : 1;
-    if (!origin && scans.empty())
-    {
-        return;
-    }
-    const size_t scan = origin.value_or(scans.size() - 1);
-    last_scan_ = scan;
-    const double t = static_cast<double>(scans[scan].at[0]) * 1e-12;
-    if (!started_)
-    {
-        ins_nav_config_t cfg = *config_.nav;
-        if (config_.start_at_truth)
-        {
-            ins_motion_attitude(motion_.get(), t, cfg.q_nb);
-        }
-        ins_nav_solver_init(&solver_, &cfg);
-        started_ = true;
-        first_scan_ = scan;
-    }
-    Scored scored;
-    if (ins_nav_solver_step(&solver_, &sample, &scored.state) < 0)
-    {
-        return;
-    }
-    scored.scan = scan;
-    scored.t_s = t;
-    scored.age_s = static_cast<double>(at) * 1e-12 - t;
-    ins_motion_attitude(motion_.get(), t, scored.q_nb.data());
-    ins_motion_euler(motion_.get(), t, scored.euler.data());
-    scored.estimate = euler_of(scored.state.q_nb);
-    for (size_t i = 0; i < 3; i++)
-    {
-        scored.error[i] = wrapped(scored.estimate[i] - scored.euler[i]);
-    }
-    states_.push_back(scored);
 }
 
 } // namespace libins

@@ -9,9 +9,8 @@
 #include "emu/serial.h"
 #include "emu_8051/acq_board.h"
 #include "faults.hpp"
-#include "ins_nav/nav.h"
 #include "ins_truth/gyro.h"
-#include "ins_truth/motion.h"
+#include "navigator.hpp"
 #include "observers.hpp"
 #include "octet.hpp"
 #include "program.hpp"
@@ -27,26 +26,6 @@
 
 namespace libins
 {
-
-/// X, Y, Z of one scan, each with the end of its own acquisition. The scan's instant is that of X.
-struct Scan
-{
-    std::array<emu_time_t, 3> at{};
-    std::array<uint16_t, 3> code{};
-};
-
-/// A navigation state beside the truth at its own sample's instant.
-struct Scored
-{
-    ins_nav_state_t state{};
-    uint64_t scan = 0;             ///< number of the board's scan it came from
-    double t_s = 0.0;              ///< instant of that scan
-    double age_s = 0.0;            ///< from the scan's instant to the state
-    std::array<double, 4> q_nb{};  ///< truth
-    std::array<double, 3> euler{}; ///< truth: roll, pitch, yaw
-    std::array<double, 3> estimate{};
-    std::array<double, 3> error{}; ///< estimate - truth, wrapped to +-pi
-};
 
 /// A row of what Python gets.
 struct Edge
@@ -149,7 +128,7 @@ class Run
     mcs51_t* cpu() const { return acq_board_cpu(board_.get()); }
     /// What is at the converter's input at instant t.
     double volts(unsigned channel, emu_time_t t) { return on_volts(this, channel, t); }
-    std::vector<Scored> take_states() { return std::exchange(states_, {}); }
+    std::vector<Scored> take_states() { return navigator_.take_states(); }
     std::vector<Edge> take_edges() { return std::exchange(edges_, {}); }
     /// Of every pin, Edge::wire being 8 * port + bit.
     std::vector<Edge> take_pin_edges() { return std::exchange(pin_edges_, {}); }
@@ -158,8 +137,9 @@ class Run
 
     std::vector<Scan> scans;
     std::vector<Report> reports;
-    uint64_t corrupt_accepted = 0; ///< accepted blocks that no scan of the board's equals
-    ins_nav_counts_t counts() const { return link_.counts; }
+    const ins_motion_t* motion() const { return motion_.get(); }
+    uint64_t corrupt_accepted() const { return navigator_.corrupt_accepted; }
+    ins_nav_counts_t counts() const { return navigator_.link.counts; }
     const emu_serial_end_t& host_end() const { return end_; }
     std::array<uint64_t, 2> slots_inverted() const { return {lines_[0].slots_inverted, lines_[1].slots_inverted}; }
     std::array<uint64_t, 2> octets_swallowed() const
@@ -182,8 +162,6 @@ class Run
     static void on_report(void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at);
     void wire_up();
     void walk(emu_state_t* io);
-    void navigate(const ins_nav_sample_t& sample, emu_time_t at);
-    std::optional<size_t> origin_of(const ins_nav_sample_t& sample) const;
 
     struct BoardDeleter
     {
@@ -205,16 +183,11 @@ class Run
     std::vector<emu_serial_cut_t> cuts_;
     emu_serial_end_t end_{};
     std::optional<Faults> faults_;
-    ins_nav_link_t link_{};
-    ins_nav_solver_t solver_{};
-    bool started_ = false;
-    size_t first_scan_ = 0; ///< the scan of the navigator's first sample
-    size_t last_scan_ = 0;  ///< the scan of its last
+    Navigator navigator_;
     Scan pending_{};
     unsigned pending_channels_ = 0;
     std::array<Tap, traced.size()> taps_{};
     std::array<Tap, pins> pin_taps_{};
-    std::vector<Scored> states_;
     std::vector<Edge> edges_;
     std::vector<Octet> octets_;
     bool stop_at_octet_ = false;

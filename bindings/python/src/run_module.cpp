@@ -6,6 +6,7 @@
 #include "net_module.hpp"
 #include "observe_module.hpp"
 #include "run.hpp"
+#include "states.hpp"
 #include <memory>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -84,10 +85,10 @@ nb::list names(std::initializer_list<const char*> columns)
     return list;
 }
 
-/// The new states: one row each, and each as the octets of an ins_nav_state_t, for a publisher.
-nb::tuple take_states(Run& run)
+} // namespace
+
+nb::tuple libins::states_table(const std::vector<Scored>& states)
 {
-    const std::vector<Scored> states = run.take_states();
     std::vector<double> values;
     nb::list raw;
     for (const Scored& state : states)
@@ -98,6 +99,20 @@ nb::tuple take_states(Run& run)
     }
     return nb::make_tuple(table(states.size(), scored_columns, std::move(values)), raw);
 }
+
+void libins::put_counts(nb::dict& d, const ins_nav_counts_t& counts)
+{
+    d["accepted"] = counts.accepted;
+    d["lost"] = counts.lost;
+    d["invalid"] = counts.invalid;
+    d["duplicates"] = counts.duplicates;
+    d["corrupt"] = counts.corrupt;
+    d["timeouts"] = counts.timeouts;
+    d["stray"] = counts.stray;
+}
+
+namespace
+{
 
 /// The edges themselves: nothing is copied.
 nb::ndarray<nb::numpy, int64_t, nb::ndim<2>> take_edges(Run& run)
@@ -124,20 +139,13 @@ nb::ndarray<nb::numpy, double, nb::ndim<2>> scans(const Run& run)
 
 nb::dict counters(const Run& run)
 {
-    const ins_nav_counts_t counts = run.counts();
     nb::dict d;
     d["instructions"] = mcs51_instructions(run.cpu());
     d["cycles"] = mcs51_cycle(run.cpu());
     d["interrupts"] = mcs51_interrupts(run.cpu());
     d["sampled"] = run.scans.size();
-    d["accepted"] = counts.accepted;
-    d["lost"] = counts.lost;
-    d["invalid"] = counts.invalid;
-    d["duplicates"] = counts.duplicates;
-    d["corrupt"] = counts.corrupt;
-    d["timeouts"] = counts.timeouts;
-    d["stray"] = counts.stray;
-    d["corrupt_accepted"] = run.corrupt_accepted;
+    libins::put_counts(d, run.counts());
+    d["corrupt_accepted"] = run.corrupt_accepted();
     d["framing_errors"] = run.host_end().framing_errors;
     d["octets_received"] = run.host_end().octets_received;
     d["octets_sent"] = run.host_end().octets_sent;
@@ -362,7 +370,7 @@ NB_MODULE(_run, m)
            "config"_a, "motion"_a, "gyro"_a)
         .def("until", &Run::until, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
         .def_prop_ro("now_ps", &Run::now)
-        .def("take_states", take_states)
+        .def("take_states", [](Run& self) { return libins::states_table(self.take_states()); })
         .def("take_edges", take_edges)
         .def("take_octets",
              [](Run& self)
@@ -381,8 +389,7 @@ NB_MODULE(_run, m)
         .def("level", &Run::level, "wire"_a)
         .def("scans", scans)
         .def("counters", counters)
-        .def("reports",
-             [](const Run& self) { return libins::reports_list(self.reports); });
+        .def("reports", [](const Run& self) { return libins::reports_list(self.reports); });
     libins::bind_net(m);
     libins::bind_observer(m);
 }

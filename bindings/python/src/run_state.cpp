@@ -146,11 +146,11 @@ void Run::walk(emu_state_t* io)
     }
     emu_serial_end_state(&end_, io);
     faults_->state(io);
-    plain(io, link_);
-    plain(io, solver_);
-    emu_state_bool(io, &started_);
-    size(io, first_scan_);
-    size(io, last_scan_);
+    plain(io, navigator_.link);
+    plain(io, navigator_.solver);
+    emu_state_bool(io, &navigator_.started);
+    size(io, navigator_.first_scan);
+    size(io, navigator_.last_scan);
     each(io, pending_);
     uint32_t channels = pending_channels_;
     emu_state_u32(io, &channels);
@@ -158,7 +158,7 @@ void Run::walk(emu_state_t* io)
     pending_channels_ = io->bad ? pending_channels_ : channels;
     list(io, scans);
     list(io, reports);
-    emu_state_u64(io, &corrupt_accepted);
+    emu_state_u64(io, &navigator_.corrupt_accepted);
     emu_state_bool(io, &halted_);
     map(io, volts_);
 }
@@ -204,7 +204,7 @@ void Run::restore(const std::string& octets)
             "the snapshot is of a run with another configuration: part, memory, image, crystal, converters, "
             "line faults or navigator");
     }
-    states_.clear();
+    navigator_.states.clear();
     edges_.clear();
     pin_edges_.clear();
     octets_.clear();
