@@ -1,5 +1,6 @@
 # What f2812-cc links board programs with, for 32 and 64 bits, in ${CMAKE_BINARY_DIR}/f2812/BITS: the device and the shim (libf2812.a), the
-# common sources of the headers (libdsp281x.a), and the core in float, compiled to let time pass (libinsf.a).
+# common sources of the headers (libdsp281x.a), and the core in float, compiled to let time pass (libinsf.a) and with the firmware's stdint.h:
+# an octet has 16 bits there.
 set(INS_F2812_RUNTIME ${CMAKE_BINARY_DIR}/f2812)
 find_program(INS_I686_CC i686-linux-gnu-gcc)
 if(NOT INS_I686_CC)
@@ -50,6 +51,6 @@ foreach(bits 32 64)
     SOURCES ${device} ${common} ${shim} ${here}/shim/main.c ${here}/shim/pipe.c ${here}/shim/summary.c)
   f2812_archive(libdsp281x ${bits} COMMAND ${here}/f2812-cc -m${bits} DEPENDS ${here}/f2812-cc SOURCES ${guest})
   f2812_archive(libinsf ${bits}
-    COMMAND ${cc} ${strict} -DINS_REAL_FLOAT -fsanitize-coverage=trace-pc -I${PROJECT_SOURCE_DIR}/libins/core/include
+    COMMAND ${cc} ${strict} -DINS_REAL_FLOAT -fsanitize-coverage=trace-pc -I${here}/shim/include -I${PROJECT_SOURCE_DIR}/libins/core/include
     SOURCES ${core_sources})
 endforeach()

@@ -320,7 +320,7 @@ TEST(thesis_report, commands_between_the_octets_of_the_handshake)
 {
     report_t report;
     report_begin(&report);
-    for (const char command : {'n', 'i', 'f', 'K', 'k'})
+    for (const char command : {'n', 'i', 'f', 'K', 'k', 'L', 'l'})
     {
         EXPECT_EQ(report_rx(&report, static_cast<uint16_t>(command), 0), static_cast<uint16_t>(command));
     }

@@ -85,6 +85,10 @@ static void Command(Uint16 Octet)
     case COMMAND_FILTER_OFF:
         Navigation.filter = Octet == COMMAND_FILTER_ON;
         break;
+    case COMMAND_LEVEL_ON:
+    case COMMAND_LEVEL_OFF:
+        Navigation.level = Octet == COMMAND_LEVEL_ON;
+        break;
     default:
         navigation_begin(&Navigation, (null_mode_t)Octet);
     }
@@ -113,6 +117,7 @@ int main(void)
     ins_gimu_init(&Gimu, 1);
     report_begin(&Report);
     Navigation.filter = 1;
+    Navigation.level = 1;
     navigation_begin(&Navigation, THESIS_NULLS);
     for (;;)
     {

@@ -17,15 +17,17 @@
 
 void navigation_begin(navigation_t* self, null_mode_t mode)
 {
-    static const float level[4] = {1, 0, 0, 0};
+    static const float upright[4] = {1, 0, 0, 0};
     static const navigation_t zero = {0};
     const uint16_t filter = self->filter;
+    const uint16_t levels = self->level;
     *self = zero;
     self->filter = filter;
+    self->level = levels;
     self->fix_age = UINT16_MAX;
     ins_gimu_scale_thesis(&self->scale);
     calibration_begin(&self->calibration, mode);
-    (void)ins_thesis_init(&self->attitude, level);
+    (void)ins_thesis_init(&self->attitude, upright);
     (void)ins_tm_init(&self->grid, &ins_grs80, 0, 0.9999f, 250000, 0);
 }
 
@@ -48,6 +50,34 @@ static void begin_filter(navigation_t* self, const float en[2])
     self->fix_age = 0;
 }
 
+static float within_pi(float angle)
+{
+    return angle > PI ? angle - 2 * PI : angle < -PI ? angle + 2 * PI : angle;
+}
+
+static float heading(const navigation_t* self)
+{
+    float euler[3];
+    ins_quat_to_euler(self->attitude.q_nb, euler);
+    return euler[2];
+}
+
+/// \param[in] turn  [3] rotation vector in n.
+static void turn_frame(navigation_t* self, const float turn[3])
+{
+    float q[4];
+    (void)ins_quat_from_rotvec(turn, q);
+    ins_quat_mul(q, self->attitude.q_nb, self->attitude.q_nb);
+}
+
+static void drop_anchor(navigation_t* self, const float p[2])
+{
+    self->anchor[0] = p[0];
+    self->anchor[1] = p[1];
+    self->anchor_heading = heading(self);
+    self->anchor_fixes = 0;
+}
+
 /// The first fix is the origin, at a quarter of a metre: what float has of a northing.
 static void begin_position(navigation_t* self, int32_t zone, const float en[2])
 {
@@ -58,26 +88,29 @@ static void begin_position(navigation_t* self, int32_t zone, const float en[2])
         self->dead_p[i] = en[i] - self->origin[i];
     }
     begin_filter(self, en);
+    drop_anchor(self, self->dead_p);
 }
 
-/// The heading is the course, where it can be seen.
-static void take_course(navigation_t* self)
+/// A car's course between two fixes is its heading halfway. \param[in] p  this fix, from the origin.
+static void take_course(navigation_t* self, const float p[2])
 {
-    const float v_e = self->axis[0].x[INS_PVA_VELOCITY];
-    const float v_n = self->axis[NORTH].x[INS_PVA_VELOCITY];
-    if (!self->filter || v_e * v_e + v_n * v_n < THESIS_COURSE_SPEED * THESIS_COURSE_SPEED)
+    const float east = p[0] - self->anchor[0];
+    const float north = p[1] - self->anchor[1];
+    const int away = east * east + north * north > THESIS_COURSE_M * THESIS_COURSE_M;
+    self->anchor_fixes++;
+    if (away)
     {
-        return;
+        const float now = heading(self);
+        const float halfway = now + within_pi(self->anchor_heading - now) / 2;
+        const float off = within_pi(within_pi(ins_atan2(east, north) - halfway));
+        const float turn[3] = {0, 0, self->course_known ? THESIS_COURSE_GAIN * off : off};
+        turn_frame(self, turn);
+        self->course_known = 1;
     }
-    float euler[3];
-    ins_quat_to_euler(self->attitude.q_nb, euler);
-    float off = ins_atan2(v_e, v_n) - euler[2];
-    off += off > PI ? -2 * PI : off < -PI ? 2 * PI : 0;
-    const float turn[3] = {0, 0, self->course_known ? THESIS_COURSE_GAIN * off : off};
-    float q[4];
-    (void)ins_quat_from_rotvec(turn, q);
-    ins_quat_mul(q, self->attitude.q_nb, self->attitude.q_nb);
-    self->course_known = 1;
+    if (away || self->anchor_fixes >= THESIS_COURSE_FIXES)
+    {
+        drop_anchor(self, p);
+    }
 }
 
 /// \return 0: one of the two axes refused it; it is in neither.
@@ -94,9 +127,17 @@ static int in_gate(const navigation_t* self, const float en[2])
     return 1;
 }
 
+/// A tilt lets gravity pull the position away: what a fix is off turns it back. \param[in] off  east, north [m].
+static void level_by(navigation_t* self, const float off[2])
+{
+    const float turn[3] = {THESIS_LEVEL_GAIN / INS_GIMU_G * off[0], -THESIS_LEVEL_GAIN / INS_GIMU_G * off[1], 0};
+    turn_frame(self, turn);
+}
+
 static void take_fix(navigation_t* self, const ins_gimu_packet_t* packet)
 {
     float en[2];
+    float off[2];
     const int32_t zone = self->zone != 0 ? self->zone : packet->lon_e7 < MIDDLE_E7 ? 119 : 121;
     self->sats = packet->sats;
     if (packet->sats < THESIS_SATS_MIN || !packet->has_position || grid_of(self, zone, packet, en) != INS_OK)
@@ -107,6 +148,10 @@ static void take_fix(navigation_t* self, const ins_gimu_packet_t* packet)
     {
         begin_position(self, zone, en);
         return;
+    }
+    for (int i = 0; i < 2; i++)
+    {
+        en[i] += THESIS_FIX_DELAY_S * self->axis[i].x[INS_PVA_VELOCITY];
     }
     if (!in_gate(self, en))
     {
@@ -119,13 +164,18 @@ static void take_fix(navigation_t* self, const ins_gimu_packet_t* packet)
     }
     for (int i = 0; i < 2; i++)
     {
-        const float v = en[i] - self->origin[i] - self->axis[i].x[INS_PVA_POSITION];
-        ins_innovation_t z = {v, THESIS_FIX_VARIANCE, 0, 0};
+        off[i] = en[i] - self->origin[i] - self->axis[i].x[INS_PVA_POSITION];
+        ins_innovation_t z = {off[i], THESIS_FIX_VARIANCE, 0, 0};
         (void)ins_pva_update(&self->axis[i], INS_PVA_POSITION, &z);
     }
+    if (self->level)
+    {
+        level_by(self, off);
+    }
+    const float p[2] = {en[0] - self->origin[0], en[1] - self->origin[1]};
     self->gated = 0;
     self->fix_age = 0;
-    take_course(self);
+    take_course(self, p);
 }
 
 /// A packet's time on by what its sample says.

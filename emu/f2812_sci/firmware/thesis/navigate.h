@@ -18,14 +18,20 @@
 #ifndef THESIS_CALIBRATION_PACKETS
 #define THESIS_CALIBRATION_PACKETS 180 ///< 30 s at rest: a mean good to 0.07 codes, 0.9 degrees a minute
 #endif
-#define THESIS_GAP_PACKETS_MAX 30   ///< a longer gap is not bridged: what was integrated is worth nothing then
-#define THESIS_SATS_MIN        4    ///< the thesis's: "four for precise positioning"
-#define THESIS_GATED_MAX       5    ///< refused fixes in a row after which the filter begins anew
-#define THESIS_JERK            0.1f ///< spectral density [m^2/s^5]: a car's changes of acceleration
-#define THESIS_FIX_VARIANCE    9.0f ///< of a fix [m^2]: 3 m
-#define THESIS_F_VARIANCE      1.0f ///< of an acceleration [(m/s^2)^2]: a tilt of degrees, which stays
-#define THESIS_COURSE_SPEED    3.0f ///< above this a car's heading is its course [m/s]
-#define THESIS_COURSE_GAIN     0.2f ///< part of the difference taken at a fix; all of it the first time
+#define THESIS_GAP_PACKETS_MAX 30    ///< a longer gap is not bridged: what was integrated is worth nothing then
+#define THESIS_SATS_MIN        4     ///< the thesis's: "four for precise positioning"
+#define THESIS_GATED_MAX       5     ///< refused fixes in a row after which the filter begins anew
+#define THESIS_JERK            0.1f  ///< spectral density [m^2/s^5]: a car's changes of acceleration
+#define THESIS_FIX_VARIANCE    9.0f  ///< of a fix [m^2]: 3 m
+#define THESIS_F_VARIANCE      1.0f  ///< of an acceleration [(m/s^2)^2]: a tilt of degrees, which stays
+#define THESIS_COURSE_M        30.0f ///< way between two fixes whose direction is a car's course: ten times their error
+#define THESIS_COURSE_FIXES    15    ///< it was standing if that took so long
+#define THESIS_COURSE_GAIN     0.5f  ///< part of the difference taken; all of it the first time
+
+#define THESIS_LEVEL_GAIN 0.01f ///< acceleration by which the tilt is turned back, of a metre that a fix is off [1/s^2]
+#ifndef THESIS_FIX_DELAY_S
+#define THESIS_FIX_DELAY_S 0.0f ///< from the instant a fix is of to its packet: a property of the GPS module
+#endif
 
 /// How the nulls are found. Also the octet that asks for it over SCI-B.
 typedef enum null_mode_t
@@ -53,6 +59,7 @@ typedef struct navigation_t
     ins_gimu_scale_t scale;
     uint16_t aligned;
     uint16_t filter; ///< 0: position and velocity are dead reckoning's
+    uint16_t level;  ///< 1: fixes level the attitude too; the thesis has no such thing
     uint16_t status; ///< INS_NAV_BLOCK_*, of this packet
     uint32_t time_ms;
     ins_thesis_t attitude;
@@ -64,7 +71,10 @@ typedef struct navigation_t
     uint16_t zone;   ///< 121, 119; 0: no fix yet
     float origin[2]; ///< first fix, easting and northing [m]
     uint16_t course_known;
-    uint16_t gated; ///< refused fixes in a row
+    float anchor[2];       ///< the fix from which the course is measured, from the origin [m]
+    float anchor_heading;  ///< of the attitude then [rad]
+    uint16_t anchor_fixes; ///< fixes since
+    uint16_t gated;        ///< refused fixes in a row
     uint16_t sats;
     uint16_t fix_age; ///< packets since the last fix
 } navigation_t;

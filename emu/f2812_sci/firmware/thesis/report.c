@@ -51,6 +51,8 @@ uint16_t report_rx(report_t* self, uint16_t octet, uint16_t now_ms)
     case 'f':
     case COMMAND_FILTER_ON:
     case COMMAND_FILTER_OFF:
+    case COMMAND_LEVEL_ON:
+    case COMMAND_LEVEL_OFF:
         return octet;
     default:
         ins_hs_board_rx(&self->link, (ins_octet_t)octet, now_ms);

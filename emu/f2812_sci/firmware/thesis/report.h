@@ -11,7 +11,9 @@ enum
 {
     COMMAND_NONE = 0,
     COMMAND_FILTER_ON = 'K',
-    COMMAND_FILTER_OFF = 'k'
+    COMMAND_FILTER_OFF = 'k',
+    COMMAND_LEVEL_ON = 'L',
+    COMMAND_LEVEL_OFF = 'l'
 };
 
 typedef struct report_t
