@@ -40,7 +40,7 @@ using Fix = std::function<bool(std::int64_t t_ps, gimu_fix_t* fix)>;
 
 struct Rig
 {
-    explicit Rig(const gimu_config_t& wanted, Input moved = nullptr, Fix known = nullptr)
+    explicit Rig(const gimu_config_t& wanted, Input moved = nullptr, Fix known = nullptr, emu_time_t power_on = 0)
         : input(std::move(moved)), fix(std::move(known))
     {
         gimu_config_t config = wanted;
@@ -51,6 +51,7 @@ struct Rig
         config.sampled = sampled;
         config.sampled_ctx = this;
         emu_sched_init(&sched);
+        emu_sched_advance(&sched, power_on);
         emu_wire_init(&t, "GIMU T", false);
         emu_wire_init(&r, "GIMU R", false);
         char why[200] = "";

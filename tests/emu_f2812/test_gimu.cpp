@@ -51,6 +51,24 @@ TEST(gimu, pins_idle_high_from_power_on)
     EXPECT_FALSE(rig.t.floating);
 }
 
+TEST(gimu, time_counts_from_power_on)
+{
+    gimu_config_t config = default_config();
+    config.channel[0].drift_v_s = 3.3 / 4095.0; // a code a second
+    const emu_time_t on = 7 * second + second / 7;
+    Rig rig(config, nullptr, nullptr, on);
+    rig.run_until(on + 10 * second);
+    ASSERT_EQ(rig.samples.size(), 60u);
+    for (std::size_t n = 0; n < 60; n++)
+    {
+        EXPECT_EQ(rig.starts[n], on + packet_start(n)) << n;
+        EXPECT_NEAR(rig.samples[n][0], 2047.0 + static_cast<double>(packet_start(n)) * 1e-12, 0.5 + 1e-9) << n;
+    }
+    const emu_time_t burst = 8 * second + config.nmea_delay; // the first whole second that the module lives to see
+    ASSERT_FALSE(rig.text_at.empty());
+    EXPECT_NEAR(static_cast<double>(rig.text_at[0] - burst), 9.5625e12 / 4800.0, 200.0);
+}
+
 TEST(gimu, samples_are_of_the_start_of_the_first_bit)
 {
     // 40 deg/s and 10 m/s^2 in a second: a code is passed every 5 ms and 0.8 ms.

@@ -422,6 +422,9 @@ TEST(track, refuses_bad_parameters_by_name)
     const double zero[4] = {0, 0, 0, 0};
     refused(ins_track_create_waypoints(&flat_site, 4, t, there_and_back, zero, zero, nullptr, why, sizeof why),
             "rows 2 and 3: the horizontal speed falls below 0.01 m/s");
+    const double turns_late[4] = {0, 100, 110, 0}; // about 14 s, not half way between rows
+    refused(ins_track_create_waypoints(&flat_site, 4, t, turns_late, zero, zero, nullptr, why, sizeof why),
+            "rows 2 and 3: the horizontal speed falls below 0.01 m/s");
     const Motion motion = swing();
     const Track given(
         ins_track_create_waypoints(&flat_site, 4, t, there_and_back, zero, zero, motion.get(), why, sizeof why),

@@ -120,9 +120,9 @@ bool gimu_init(gimu_t* self, const gimu_config_t* config, emu_sched_t* sched, em
     emu_sched_at(sched, &self->packet_event, self->begun + config->power_up);
     if (nmea_wire != NULL)
     {
-        const emu_time_t first =
-            self->begun + config->power_up - config->nmea_delay; // first whole second at or after it
-        const emu_time_t second = first > 0 ? (first + EMU_PS_PER_S - 1) / EMU_PS_PER_S * EMU_PS_PER_S : 0;
+        // The first whole second that finds the module under power, and awake when its sentences are due.
+        const emu_time_t wait = config->power_up > config->nmea_delay ? config->power_up - config->nmea_delay : 0;
+        const emu_time_t second = (self->begun + wait + EMU_PS_PER_S - 1) / EMU_PS_PER_S * EMU_PS_PER_S;
         emu_sched_at(sched, &self->nmea_event, second + config->nmea_delay);
     }
     return true;
