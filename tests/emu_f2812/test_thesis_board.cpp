@@ -131,6 +131,27 @@ TEST(thesis_board, the_pc_may_be_silent_and_then_commands)
     EXPECT_EQ(bits(s, INS_NAV_BLOCK_FILTER), 0u);
 }
 
+TEST(thesis_board, the_position_is_that_of_the_gps)
+{
+    gimu_config_t c = specimen();
+    c.fix = [](void*, int64_t t_ps, gimu_fix_t* fix)
+    {
+        *fix = {};
+        fix->of_ps = t_ps;
+        fix->latitude = 24.983333 * thesis::DEG; // the example of figure 4.5
+        fix->longitude = 120.205760 * thesis::DEG;
+        fix->sats = 8;
+        return true;
+    };
+    thesis::System s(c, "");
+    s.run(thesis::CALIBRATED_S + 10);
+    EXPECT_EQ(s.last.zone, 121u);
+    EXPECT_NEAR(s.last.en_m[0], 169816.94, 1) << "TWD97 TM2, by Krueger's series in double";
+    EXPECT_NEAR(s.last.en_m[1], 2764166.27, 1);
+    EXPECT_NEAR(s.last.lat_lon_rad[0], 24.983333 * thesis::DEG, 2e-7);
+    EXPECT_NEAR(s.last.lat_lon_rad[1], 120.205760 * thesis::DEG, 2e-7);
+}
+
 TEST(thesis_board, the_same_octets_from_run_to_run)
 {
     std::string first;
