@@ -2,9 +2,24 @@
 /// \brief  See net_faults.hpp. SPDX-License-Identifier: MIT
 #include "net_faults.hpp"
 #include <algorithm>
+#include <stdexcept>
 
 namespace libins
 {
+
+double baud_with(const Fault& fault, double baud, const std::string& whose)
+{
+    if (fault.kind != FaultKind::baud)
+    {
+        throw std::invalid_argument("kind: " + whose + " has a baud that may be off, and no other faults of its own");
+    }
+    const double off = baud * (1.0 + fault.value * 1e-6);
+    if (!(off >= EMU_BAUD_MIN && off <= EMU_BAUD_MAX))
+    {
+        throw std::invalid_argument("ppm: the baud would be outside 50 .. 4e6");
+    }
+    return off;
+}
 
 void FaultList::add(const Fault& fault, emu_time_t now)
 {

@@ -4,10 +4,14 @@
 #pragma once
 #include "faults.hpp"
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace libins
 {
+
+/// The baud of an end at which this fault is on. Throws std::invalid_argument for another kind or one that cannot be.
+double baud_with(const Fault& fault, double baud, const std::string& whose);
 
 class FaultList
 {

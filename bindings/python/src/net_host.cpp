@@ -40,7 +40,7 @@ emu_wire_t* HostStation::wire(const std::string& name)
 void HostStation::begin(emu_time_t goal)
 {
     faults_.apply(now(), [this](const FaultList::Entry& entry)
-                  { emu_serial_end_set_baud(&end_, entry.on ? baud_ * (1.0 + entry.fault.value * 1e-6) : baud_); });
+                  { emu_serial_end_set_baud(&end_, entry.on ? baud_with(entry.fault, baud_, name()) : baud_); });
     stopped_ = false;
     arm(goal);
     while (!stopped_ && emu_sched_next(&sched_) <= goal)
@@ -59,15 +59,7 @@ void HostStation::begin(emu_time_t goal)
 
 void HostStation::add_fault(const Fault& fault)
 {
-    if (fault.kind != FaultKind::baud)
-    {
-        throw std::invalid_argument("kind: a host has a baud that may be off, and no other faults of its own");
-    }
-    const double baud = baud_ * (1.0 + fault.value * 1e-6);
-    if (!(baud >= EMU_BAUD_MIN && baud <= EMU_BAUD_MAX))
-    {
-        throw std::invalid_argument("ppm: the baud would be outside 50 .. 4e6");
-    }
+    (void)baud_with(fault, baud_, "a host");
     faults_.add(fault, now());
 }
 

@@ -3,6 +3,7 @@
 #include "net_module.hpp"
 #include "board_module.hpp"
 #include "emu_f2812/registers.h"
+#include "gimu_module.hpp"
 #include "net.hpp"
 #include "net_listeners.hpp"
 #include "states.hpp"
@@ -360,7 +361,9 @@ void bind_net(nb::module_& module)
         "register"_a, "Address and name of a register, from either.");
     nb::class_<Net> net(module, "Net", "See net.hpp.");
     net.def(nb::init<uint64_t>(), "seed"_a);
+    bind_truth(module);
     bind_stations(net);
+    bind_gimu(net);
     bind_boards(net);
     net.def("until", &Net::until, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
         .def("until_octet", &Net::until_octet, "host"_a, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
