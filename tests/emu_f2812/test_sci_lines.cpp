@@ -46,7 +46,13 @@ TEST(sci_autobaud, a_and_lower_a_set_brr_abd_and_txint_and_are_received)
                 sci.host(0x3C, baud * 1.01);
                 EXPECT_EQ(sci.r(SCIRXBUF), 0x3C) << "CDC left set";
                 sci.host('A', baud);
+                sci.r(SCIRXBUF);
+                sci.w(SCIFFCT, CDC | ABDCLR);
+                sci.host('A', baud);
                 EXPECT_EQ(sci.tx_interrupts.size(), 1u) << "no other interrupt";
+                EXPECT_EQ(sci.p(SCIFFCT), CDC);
+                EXPECT_EQ(sci.r(SCIRXBUF), 'A');
+                EXPECT_EQ(sci.r(SCIRXST), 0) << "received as any other";
             }
         }
     }
