@@ -1,4 +1,4 @@
-"""docs/fidelity.md names tests and choices that there are."""
+"""docs/fidelity.md and docs/f2812.md name tests, choices and switches that there are."""
 
 import re
 from pathlib import Path
@@ -6,27 +6,46 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs/fidelity.md").read_text(encoding="utf-8")
 RULES, CHOICES = PAGE.split("## Choices")
-LEAST_RULES = 90  # so that a page that is no longer read as tables is noticed
+F2812 = (ROOT / "docs/f2812.md").read_text(encoding="utf-8")
+LEAST_RULES, LEAST_RULES_F2812 = 90, 60  # so that a page that is no longer read as tables is noticed
 
 
 def rows(text: str) -> list[list[str]]:
     lines = [line for line in text.splitlines() if line.startswith("| ")]
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-    return [row for row in cells if row[0] not in ("rule", "open")]
+    return [row for row in cells if row[0] not in ("rule", "open", "switch")]
+
+
+def check_tests(rules: list[list[str]], folder: str) -> None:
+    """The last cell of each row names tests, all of which are in the folder."""
+    tests = {
+        ".".join(found)
+        for path in sorted((ROOT / folder).rglob("*.cpp"))
+        for found in re.findall(r"^TEST(?:_F)?\((\w+),\s*(\w+)\)", path.read_text(), re.M)
+    }
+    named = {row[0]: re.findall(r"`(\w+\.\w+)`", row[-1]) for row in rules}
+    assert [rule for rule, found in named.items() if not found] == []
+    assert [name for found in named.values() for name in found if name not in tests] == []
 
 
 def test_every_rule_has_a_test_that_exists():
-    sources = sorted((ROOT / "tests/emu_8051").glob("*/*.cpp"))
-    tests = {
-        ".".join(found)
-        for path in sources
-        for found in re.findall(r"^TEST(?:_F)?\((\w+),\s*(\w+)\)", path.read_text(), re.M)
-    }
     rules = rows(RULES)
     assert len(rules) >= LEAST_RULES
-    named = {row[0]: re.findall(r"`(\w+\.\w+)`", row[2]) for row in rules}
-    assert [rule for rule, found in named.items() if not found] == []
-    assert [name for found in named.values() for name in found if name not in tests] == []
+    check_tests(rules, "tests/emu_8051")
+
+
+def test_every_rule_of_the_f2812_has_a_test_that_exists():
+    rules = rows(F2812)
+    assert len(rules) >= LEAST_RULES_F2812
+    check_tests(rules, "tests/emu_f2812")
+
+
+def test_every_switch_of_the_f2812_is_on_its_page_with_its_values():
+    source = (ROOT / "emu/f2812_sci/cpu/switches.c").read_text(encoding="utf-8")
+    switches = re.findall(r'^    \{"(\w+)", offsetof\([^)]*\), \{([^}]*)\}\},$', source, re.M)
+    assert len(switches) == source.count("offsetof(f2812_switches_t")
+    page = {row[0].strip("`"): re.findall(r"`([^`]+)`", row[1]) for row in rows(F2812.split("## Switches")[1])}
+    assert {name: re.findall(r'"([^"]+)"', values) for name, values in switches} == page
 
 
 def test_every_choice_is_named_in_the_sources():
