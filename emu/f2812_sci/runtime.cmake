@@ -1,7 +1,7 @@
 # What f2812-cc links board programs with, for 32 and 64 bits, in ${CMAKE_BINARY_DIR}/f2812/BITS: the device and the shim (libf2812.a), the
 # common sources of the headers (libdsp281x.a), and the core in float, compiled to let time pass (libinsf.a) and with the firmware's stdint.h:
 # an octet has 16 bits there.
-set(INS_F2812_RUNTIME ${CMAKE_BINARY_DIR}/f2812)
+set(INS_F2812_RUNTIME ${CMAKE_BINARY_DIR}/f2812 CACHE INTERNAL "what add_f2812_firmware() links with")
 find_program(INS_I686_CC i686-linux-gnu-gcc)
 if(NOT INS_I686_CC)
   message(FATAL_ERROR "i686-linux-gnu-gcc, which builds firmware for the F2812 board, is missing. Install it: sudo apt-get install "

@@ -4,10 +4,11 @@
 # BITS 64), a static executable, by the target firmware_app (firmware_app_64). CORE links the navigation core in float; IGNORE_CASE finds
 # #include names as Windows does; OBJECT makes ${CMAKE_BINARY_DIR}/firmware/app.64.o instead, which offers f2812_program_app to a program
 # that links it with the emulator. f2812-cc --help says the rest.
-set(INS_F2812_HERE ${CMAKE_CURRENT_LIST_DIR})
+
 
 function(add_f2812_firmware)
   cmake_parse_arguments(A "CORE;IGNORE_CASE;OBJECT" "NAME;BITS" "SOURCES;INCLUDES;DEFINES" ${ARGN})
+  set(here ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
   if(NOT A_NAME OR NOT A_SOURCES OR A_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "add_f2812_firmware(NAME n SOURCES a.c ...): NAME or SOURCES is missing, or unknown: ${A_UNPARSED_ARGUMENTS}")
   endif()
@@ -15,14 +16,14 @@ function(add_f2812_firmware)
     set(A_BITS 32)
   endif()
   if(INS_F2812_RUNTIME) # in the tree
-    set(cc ${INS_F2812_HERE}/../f2812-cc --lib ${INS_F2812_RUNTIME})
-    set(runtime ${INS_F2812_RUNTIME}/${A_BITS}/libf2812.a ${INS_F2812_RUNTIME}/${A_BITS}/libdsp281x.a ${INS_F2812_HERE}/../f2812-cc
-                ${INS_F2812_HERE}/../shim/program.c ${INS_F2812_HERE}/../shim/prelink.ld)
+    set(cc ${here}/../f2812-cc --lib ${INS_F2812_RUNTIME})
+    set(runtime ${INS_F2812_RUNTIME}/${A_BITS}/libf2812.a ${INS_F2812_RUNTIME}/${A_BITS}/libdsp281x.a ${here}/../f2812-cc
+                ${here}/../shim/program.c ${here}/../shim/prelink.ld)
     if(A_CORE)
       list(APPEND runtime ${INS_F2812_RUNTIME}/${A_BITS}/libinsf.a)
     endif()
   else()
-    find_program(INS_F2812_CC f2812-cc HINTS ${INS_F2812_HERE}/../../../../bin REQUIRED)
+    find_program(INS_F2812_CC f2812-cc HINTS ${here}/../../../../bin REQUIRED)
     set(cc ${INS_F2812_CC})
     set(runtime ${INS_F2812_CC})
   endif()

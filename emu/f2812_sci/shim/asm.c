@@ -4,6 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define REPEAT_MAX 255u // RPT #8bit
+#define KNOWN      64u  ///< instructions that need no decoding again
+
 void f2812_asm(const char* instruction); // declared to firmware in f2812_guest.h
 
 static char upper(char c)
@@ -14,6 +17,7 @@ static char upper(char c)
 /// Whether text goes on with a word, which is passed; letter case is one, and blanks before it do not count.
 static bool word(const char** text, const char* name)
 {
+    const bool letters = upper(*name) >= 'A' && upper(*name) <= 'Z';
     const char* at = *text;
     while (*at == ' ' || *at == '\t')
     {
@@ -26,7 +30,7 @@ static bool word(const char** text, const char* name)
             return false;
         }
     }
-    if ((*at >= '0' && *at <= '9') || (upper(*at) >= 'A' && upper(*at) <= 'Z') || *at == '_')
+    if (letters && ((*at >= '0' && *at <= '9') || (upper(*at) >= 'A' && upper(*at) <= 'Z') || *at == '_'))
     {
         return false;
     }
@@ -36,103 +40,146 @@ static bool word(const char** text, const char* name)
 
 static bool ends(const char* text)
 {
-    return text[strspn(text, " \t\r\n")] == '\0' || *text == ';';
+    text += strspn(text, " \t\r\n");
+    return *text == '\0' || *text == ';';
 }
 
-/// SETC or CLRC with its list of bits. Modes that only the C28x's own instructions feel do nothing here.
-static bool status_bits(f2812_shim_t* self, const char* text, bool set)
+/// What an instruction does here.
+typedef struct operation_t
+{
+    const char* text;
+    enum
+    {
+        UNKNOWN,
+        NOTHING,
+        STATUS,
+        REPEAT,
+        EALLOW,
+        EDIS,
+        IDLE,
+        ESTOP
+    } what;
+    bool set, intm, dbgm; ///< STATUS: bits of ST1
+    unsigned times;       ///< REPEAT
+} operation_t;
+
+/// The list of bits of SETC and CLRC. Modes that only the C28x's own instructions feel do nothing here.
+static operation_t status_bits(const char* text, bool set)
 {
     static const char* const felt_by_code_only[] = {"OBJMODE", "AMODE", "M0M1MAP", "PAGE0", "VMAP", "SXM",
                                                     "OVM",     "TC",    "C",       "PM",    "SPA",  "XF"};
+    operation_t op = {.what = STATUS, .set = set};
     do
     {
-        bool known = false;
-        if (word(&text, "INTM"))
-        {
-            f2812_set_intm(self->device, set);
-            known = true;
-        }
-        else if (word(&text, "DBGM"))
-        {
-            f2812_set_dbgm(self->device, set);
-            known = true;
-        }
+        const bool intm = word(&text, "INTM");
+        const bool dbgm = !intm && word(&text, "DBGM");
+        bool known = intm || dbgm;
         for (size_t i = 0; !known && i < sizeof felt_by_code_only / sizeof *felt_by_code_only; i++)
         {
             known = word(&text, felt_by_code_only[i]);
         }
         if (!known)
         {
-            return false;
+            return (operation_t){.what = UNKNOWN};
         }
+        op.intm = op.intm || intm;
+        op.dbgm = op.dbgm || dbgm;
     } while (word(&text, ","));
-    return ends(text);
+    return ends(text) ? op : (operation_t){.what = UNKNOWN};
 }
 
 /// "RPT #n || NOP": n + 1 times.
-static bool repeat(f2812_shim_t* self, const char* text)
+static operation_t repeat(const char* text)
 {
     text += strspn(text, " \t");
     if (*text != '#')
     {
-        return false;
+        return (operation_t){.what = UNKNOWN};
     }
     char* rest;
     const unsigned long times = strtoul(text + 1, &rest, 10);
     const char* at = rest;
-    if (times > 255 || !word(&at, "||") || !word(&at, "NOP") || !ends(at))
-    {
-        return false;
-    }
-    f2812_shim_wait(self, times + 1);
-    return true;
+    const bool known = times <= REPEAT_MAX && word(&at, "||") && word(&at, "NOP") && ends(at);
+    return (operation_t){.what = known ? REPEAT : UNKNOWN, .times = (unsigned)times + 1u};
 }
 
-static bool execute(f2812_shim_t* self, const char* text)
+static operation_t decode(const char* text)
 {
-    if (word(&text, "EALLOW"))
+    static const struct
     {
-        f2812_set_eallow(self->device, true);
+        const char* name;
+        operation_t op;
+    } plain[] = {{"EALLOW", {.what = EALLOW}}, {"EDIS", {.what = EDIS}},    {"IDLE", {.what = IDLE}},
+                 {"ESTOP0", {.what = ESTOP}},  {"ESTOP1", {.what = ESTOP}}, {"NOP", {.what = NOTHING}}};
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
+    {
+        if (word(&text, plain[i].name))
+        {
+            return plain[i].op;
+        }
     }
-    else if (word(&text, "EDIS"))
+    if (word(&text, "SETC"))
     {
-        f2812_set_eallow(self->device, false);
+        return status_bits(text, true);
     }
-    else if (word(&text, "CLRC"))
+    if (word(&text, "CLRC"))
     {
-        return status_bits(self, text, false);
+        return status_bits(text, false);
     }
-    else if (word(&text, "SETC"))
+    if (word(&text, "RPT"))
     {
-        return status_bits(self, text, true);
+        return repeat(text);
     }
-    else if (word(&text, "RPT"))
+    return (operation_t){.what = ends(text) ? NOTHING : UNKNOWN};
+}
+
+static void execute(f2812_shim_t* self, const operation_t* op)
+{
+    switch (op->what)
     {
-        return repeat(self, text);
-    }
-    else if (word(&text, "IDLE"))
-    {
+    case EALLOW:
+    case EDIS:
+        f2812_set_eallow(self->device, op->what == EALLOW);
+        break;
+    case STATUS:
+        if (op->intm)
+        {
+            f2812_set_intm(self->device, op->set);
+        }
+        if (op->dbgm)
+        {
+            f2812_set_dbgm(self->device, op->set);
+        }
+        break;
+    case REPEAT:
+        f2812_shim_wait(self, op->times);
+        break;
+    case IDLE:
         f2812_shim_idle(self);
-    }
-    else if (word(&text, "ESTOP0") || word(&text, "ESTOP1"))
-    {
+        break;
+    case ESTOP:
         f2812_shim_finish(self, "ESTOP0");
+        break;
+    case UNKNOWN:
+        f2812_shim_error(self, EMU_NOT_MODELLED, op->text, 0);
+        break;
+    case NOTHING:
+        break;
     }
-    else if (!word(&text, "NOP"))
-    {
-        return ends(text);
-    }
-    return true;
 }
 
 void f2812_asm(const char* instruction)
 {
+    static operation_t known[KNOWN];
     f2812_shim_t* const self = f2812_shim_current;
+    operation_t* const op = &known[(uintptr_t)instruction / 8 % KNOWN];
     self->midway = false;
     f2812_shim_step(self, F2812_CYCLES_ASM);
-    if (!execute(self, instruction))
+    if (op->text != instruction)
     {
-        f2812_shim_error(self, EMU_NOT_MODELLED, instruction, 0);
+        *op = decode(instruction);
+        op->text = instruction;
     }
+    execute(self, op);
     f2812_shim_step(self, 0);
 }

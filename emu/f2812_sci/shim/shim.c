@@ -112,21 +112,6 @@ void f2812_shim_attend(f2812_shim_t* self)
     }
 }
 
-void f2812_shim_step(f2812_shim_t* self, uint32_t cycles)
-{
-    if (self->store != 0)
-    {
-        f2812_shim_commit(self);
-    }
-    cycles += f2812_shim_debt;
-    f2812_shim_debt = 0;
-    f2812_advance(self->device, cycles);
-    if ((f2812_interrupt_pending(self->device) || self->stop) && !self->midway)
-    {
-        f2812_shim_attend(self);
-    }
-}
-
 void f2812_shim_idle(f2812_shim_t* self)
 {
     (void)f2812_idle(self->device, EMU_TIME_MAX);
@@ -149,7 +134,7 @@ static void start(f2812_shim_t* self)
     f2812_context_t unused;
     (void)f2812_take_interrupt(self->device, &unused); // the reset itself
     memcpy(self->program->data, self->initial, (size_t)(self->program->data_end - self->program->data));
-    memset(self->slot, 0, sizeof self->slot);
+    memset(self->loops, 0, sizeof self->loops);
     self->store = 0;
     self->midway = false;
     f2812_shim_debt = 0;
@@ -259,10 +244,31 @@ static bool make_map(f2812_shim_t* self)
     return true;
 }
 
+static void free_all(f2812_shim_t* self)
+{
+    free(self->coroutine);
+    free(self->initial);
+    free(self->map);
+    free(self);
+}
+
+/// The shims there are: a program's variables serve one at a time.
+static f2812_shim_t* alive;
+
+static bool taken(const f2812_program_t* program)
+{
+    const f2812_shim_t* shim = alive;
+    while (shim != NULL && shim->program != program)
+    {
+        shim = shim->next;
+    }
+    return shim != NULL;
+}
+
 f2812_shim_t* f2812_shim_create(f2812_t* device, emu_sched_t* sched, const f2812_program_t* program,
                                 const emu_report_t* report)
 {
-    f2812_shim_t* const self = calloc(1, sizeof *self);
+    f2812_shim_t* const self = taken(program) ? NULL : calloc(1, sizeof *self);
     const size_t octets = (size_t)(program->data_end - program->data);
     if (self == NULL)
     {
@@ -278,27 +284,30 @@ f2812_shim_t* f2812_shim_create(f2812_t* device, emu_sched_t* sched, const f2812
     self->initial = malloc(octets + 1);
     if (self->coroutine == NULL || self->initial == NULL || !make_map(self))
     {
-        f2812_shim_destroy(self);
+        free_all(self);
         return NULL;
     }
     memcpy(self->initial, program->data, octets);
+    self->next = alive;
+    alive = self;
     return self;
 }
 
 void f2812_shim_destroy(f2812_shim_t* self)
 {
-    if (self != NULL)
+    if (self == NULL)
     {
-        emu_sched_cancel(self->sched, &self->until);
-        if (self->initial != NULL) // the next shim of the program finds it as loaded
-        {
-            memcpy(self->program->data, self->initial, (size_t)(self->program->data_end - self->program->data));
-        }
-        free(self->coroutine);
-        free(self->initial);
-        free(self->map);
-        free(self);
+        return;
     }
+    emu_sched_cancel(self->sched, &self->until);
+    memcpy(self->program->data, self->initial, (size_t)(self->program->data_end - self->program->data));
+    f2812_shim_t** link = &alive;
+    while (*link != self)
+    {
+        link = &(*link)->next;
+    }
+    *link = self->next;
+    free_all(self);
 }
 
 void f2812_shim_break(f2812_shim_t* self)

@@ -58,7 +58,7 @@ typedef struct f2812_shim_stats_t
 
 typedef struct f2812_shim_t f2812_shim_t;
 
-/// \param[in] report  where guest errors go; put may be NULL. \return NULL: no memory.
+/// \param[in] report  where guest errors go; put may be NULL. \return NULL: no memory, or the program has a shim already.
 EMU_API f2812_shim_t* f2812_shim_create(f2812_t* device, emu_sched_t* sched, const f2812_program_t* program,
                                         const emu_report_t* report);
 EMU_API void f2812_shim_destroy(f2812_shim_t* self);

@@ -3,6 +3,7 @@
 /// SPDX-License-Identifier: MIT
 #ifndef F2812_SHIM_INTERNAL_H_INCLUDED
 #define F2812_SHIM_INTERNAL_H_INCLUDED
+#include "../cpu/device.h"
 #include "shim.h"
 
 // Cost of what firmware does [cycles of SYSCLKOUT]. A model: the host's compiler makes other instructions than the C28x's.
@@ -24,11 +25,11 @@
 #define F2812_MAP_ZERO   3u ///< reads 0
 #define F2812_MAP_VECTOR 4u
 
-#define F2812_SLOTS        16u   ///< loops whose last turn is remembered
+#define F2812_LOOPS        16u   ///< loops whose last turn is remembered
 #define F2812_FRAME_OCTETS 2048u ///< a loop in a function with a larger frame is never passed over
 
 /// The last turn of a loop.
-typedef struct f2812_slot_t
+typedef struct f2812_loop_t
 {
     uintptr_t where; ///< return address of the tick
     uintptr_t frame;
@@ -36,7 +37,7 @@ typedef struct f2812_slot_t
     uint64_t accesses, blocks, turns; ///< counts at it
     size_t octets;                    ///< of the copy; 0: none taken
     uint8_t copy[F2812_FRAME_OCTETS]; ///< kept registers and frame
-} f2812_slot_t;
+} f2812_loop_t;
 
 struct f2812_shim_t
 {
@@ -56,11 +57,12 @@ struct f2812_shim_t
     uint64_t vector_before; ///< what the entry of the table held
     f2812_shim_stats_t stats;
 
-    void* coroutine; ///< shim.c
+    struct f2812_shim_t* next; ///< of those alive
+    void* coroutine;           ///< shim.c
     emu_event_t until;
     uint8_t* initial; ///< the variables as loaded
     const char* end;
-    f2812_slot_t slot[F2812_SLOTS];
+    f2812_loop_t loops[F2812_LOOPS];
 };
 
 /// The shim whose firmware runs.
@@ -70,8 +72,6 @@ extern uint32_t f2812_shim_debt;
 /// Stores, reads that change something, and calls of what is not instrumented: a turn of a loop without any waits.
 extern uint64_t f2812_shim_changes;
 
-/// Store what is pending, let time pass, and take interrupts.
-void f2812_shim_step(f2812_shim_t* self, uint32_t cycles);
 /// The pending store goes to the device.
 void f2812_shim_commit(f2812_shim_t* self);
 /// Interrupts, reset, break.
@@ -85,5 +85,25 @@ void f2812_shim_finish(f2812_shim_t* self, const char* why);
 void f2812_shim_error(f2812_shim_t* self, emu_report_kind_t kind, const char* text, uint32_t detail);
 /// Called by tick.S. kept: the registers a function keeps, lowest first, the return address, and the caller's frame.
 void f2812_shim_turn(const uintptr_t* kept);
+
+/// Store what is pending, let time pass, and take interrupts. In every hook, so it looks into the device instead of asking.
+static inline void f2812_shim_step(f2812_shim_t* self, uint32_t cycles)
+{
+    f2812_t* const device = self->device;
+    if (self->store != 0)
+    {
+        f2812_shim_commit(self);
+    }
+    device->cycle += cycles + f2812_shim_debt;
+    f2812_shim_debt = 0;
+    if (device->cycle >= device->due)
+    {
+        f2812_advance(device, 0);
+    }
+    if ((device->pending || self->stop) && !self->midway)
+    {
+        f2812_shim_attend(self);
+    }
+}
 
 #endif // F2812_SHIM_INTERNAL_H_INCLUDED

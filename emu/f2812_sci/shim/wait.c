@@ -22,26 +22,26 @@ static size_t frame_octets(const uintptr_t* kept)
 }
 
 /// Whether the turn that ends now did nothing but look.
-static bool idle_turn(const f2812_shim_t* self, const f2812_slot_t* slot, const uintptr_t* kept)
+static bool idle_turn(const f2812_shim_t* self, const f2812_loop_t* loop, const uintptr_t* kept)
 {
-    return slot->where == kept[KEPT_WHERE] && slot->frame == (uintptr_t)kept && slot->changes == f2812_shim_changes &&
-           slot->due == f2812_due(self->device) && slot->interrupts == self->stats.interrupts;
+    return loop->where == kept[KEPT_WHERE] && loop->frame == (uintptr_t)kept && loop->changes == f2812_shim_changes &&
+           loop->due == f2812_due(self->device) && loop->interrupts == self->stats.interrupts;
 }
 
 /// So many turns like the last one, all of which end before anything happens.
-static void pass_over(f2812_shim_t* self, const f2812_slot_t* slot)
+static void pass_over(f2812_shim_t* self, const f2812_loop_t* loop)
 {
     const uint64_t now = f2812_cycle(self->device);
-    const uint64_t turn = now - slot->cycle;
-    const uint64_t quiet = slot->due - now - 1;
+    const uint64_t turn = now - loop->cycle;
+    const uint64_t quiet = loop->due - now - 1;
     uint64_t turns = quiet / turn;
     const uint64_t most = UINT32_MAX / turn;
     turns = turns < most ? turns : most;
     f2812_advance(self->device, (uint32_t)(turns * turn));
     self->stats.skipped += turns;
-    self->stats.turns += turns * (self->stats.turns - slot->turns);
-    self->stats.accesses += turns * (self->stats.accesses - slot->accesses);
-    self->stats.blocks += turns * (self->stats.blocks - slot->blocks);
+    self->stats.turns += turns * (self->stats.turns - loop->turns);
+    self->stats.accesses += turns * (self->stats.accesses - loop->accesses);
+    self->stats.blocks += turns * (self->stats.blocks - loop->blocks);
 }
 
 void f2812_shim_turn(const uintptr_t* kept)
@@ -54,27 +54,27 @@ void f2812_shim_turn(const uintptr_t* kept)
     {
         return;
     }
-    f2812_slot_t* const slot = &self->slot[(kept[KEPT_WHERE] >> 3) % F2812_SLOTS];
+    f2812_loop_t* const loop = &self->loops[(kept[KEPT_WHERE] >> 3) % F2812_LOOPS];
     size_t octets = 0;
-    if (idle_turn(self, slot, kept) && f2812_cycle(self->device) > slot->cycle)
+    if (idle_turn(self, loop, kept) && f2812_cycle(self->device) > loop->cycle)
     {
         octets = frame_octets(kept);
-        if (octets != 0 && slot->octets == octets && memcmp(slot->copy, kept, octets) == 0)
+        if (octets != 0 && loop->octets == octets && memcmp(loop->copy, kept, octets) == 0)
         {
-            pass_over(self, slot);
+            pass_over(self, loop);
         }
-        memcpy(slot->copy, kept, octets);
+        memcpy(loop->copy, kept, octets);
     }
-    slot->octets = octets;
-    slot->where = kept[KEPT_WHERE];
-    slot->frame = (uintptr_t)kept;
-    slot->changes = f2812_shim_changes;
-    slot->interrupts = self->stats.interrupts;
-    slot->cycle = f2812_cycle(self->device);
-    slot->due = f2812_due(self->device);
-    slot->accesses = self->stats.accesses;
-    slot->blocks = self->stats.blocks;
-    slot->turns = self->stats.turns;
+    loop->octets = octets;
+    loop->where = kept[KEPT_WHERE];
+    loop->frame = (uintptr_t)kept;
+    loop->changes = f2812_shim_changes;
+    loop->interrupts = self->stats.interrupts;
+    loop->cycle = f2812_cycle(self->device);
+    loop->due = f2812_due(self->device);
+    loop->accesses = self->stats.accesses;
+    loop->blocks = self->stats.blocks;
+    loop->turns = self->stats.turns;
 }
 
 void f2812_shim_wait(f2812_shim_t* self, uint64_t cycles)
