@@ -1,6 +1,6 @@
-"""Draws the figures of docs and fills the tables of docs/accuracy.md, from the errors the core makes on known motions.
+"""Draws the figures of docs and fills their tables: errors of the core on known motions, and the thesis's experiments.
 
-    python bench/figures/make.py            # runs build/release/bench/figures, writes docs/figures and docs/accuracy.md
+    python bench/figures/make.py            # runs build/release/bench/figures, writes docs/figures and the tables
     python bench/figures/make.py --check    # writes nothing, compares with what is committed
 
 The points are in docs/figures/points.csv; a figure is a function of its points alone, to the byte.
@@ -26,9 +26,11 @@ ROOT = Path(__file__).resolve().parents[2]
 FIGURES = ROOT / "docs/figures"
 POINTS = FIGURES / "points.csv"
 ACCURACY = ROOT / "docs/accuracy.md"
+THESIS = ROOT / "docs/experiments_thesis.md"
 Points = dict[str, dict[str, dict[float, float]]]  # figure, curve, x
 
 SAME = 0.05  # relative, of a point that is a formula's error
+NEAR_ZERO = {"table_thesis_turns": 2e-3}  # absolute, beside SAME: figures that are 0 but for the sensors' noise
 ROUNDING_DECADES = 1.0  # of the largest point of a curve that is rounding: another compiler rounds elsewhere
 
 
@@ -40,6 +42,7 @@ class Figure:
     y: str
     rounding: str = r"^$"
     x_scale: str = "log"
+    y_scale: str = "log"
 
 
 SPECS = {
@@ -68,6 +71,9 @@ SPECS = {
     "markov_step": Figure("T / τ", "relative error of the settled variance", rounding="exact"),
     "singer_noise": Figure("T / τ", "relative error of the position's Q", rounding="."),
     "dr_step": Figure("step [s]", "position error after 60 s of slalom [m]"),
+    "thesis_rest": Figure("time at rest [s]", "largest of |P|, |Q|, |R| [°]", x_scale="linear", y_scale="linear"),
+    "thesis_kalman": Figure("step of 0.05 s", "error of the position [m]", x_scale="linear"),
+    "thesis_drive": Figure("time [s]", "error of the position [m]", x_scale="linear"),
     "link_undetected": Figure("bit error rate", "frames taken though wrong"),
 }
 # Of middle lightness: they stand out on a white page and on a black one.
@@ -77,9 +83,9 @@ MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 
 
 def run(build: Path) -> Points:
-    """Points of both number types, rounded to four figures."""
+    """Points of both number types and of the thesis's system, rounded to four figures."""
     points: Points = {}
-    for program in ("figures_f64", "figures_f32"):
+    for program in ("figures_f64", "figures_f32", "figures_thesis"):
         path = build / "bench/figures" / program
         if not path.exists():
             raise SystemExit(f"{path} is missing: run ./dev test, or cmake --build --preset release --target {program}")
@@ -136,7 +142,7 @@ def draw(name: str, curves: dict[str, dict[float, float]]) -> str:
                 x, y, "--" if dashed else "-", color=COLOURS[i % len(COLOURS)], marker=MARKERS[i % 8], label=curve
             )
         axes.set_xscale(spec.x_scale)
-        axes.set_yscale("log")
+        axes.set_yscale(spec.y_scale)
         axes.set_xlabel(spec.x)
         axes.set_ylabel(spec.y)
         axes.grid(True)
@@ -218,19 +224,82 @@ RATE_ROWS = {
 NOISE_ROWS = {"rectangle": "rectangle", "AM2": "order 2", "AM3": "order 3", "AM4": "order 4"}
 
 
-def accuracy(points: Points, page: str) -> str:
-    """The page with each table between its markers made anew."""
-    rows = {
-        "coning": table(points["table_coning"], CONING_ROWS, coning_cell),
-        "increments": table(points["table_motion"], MOTION_ROWS, motion_cell),
-        "rates": table(points["table_motion"], RATE_ROWS, motion_cell),
-        "noise": table(points["table_noise"], NOISE_ROWS, motion_cell),
+REST_ROWS = {
+    "null 2047": "none: 2047",
+    "integer null": "mean, rounded to a code",
+    "fractional null": "**mean of 180 packets**",
+}
+DRIVE_ROWS = {
+    "rest, dead reckoning": "at rest, INS alone",
+    "rest, filter": "at rest, P-V-A filter",
+    "rest, filter that levels": "**at rest, P-V-A filter, fixes level the attitude**",
+    "circle, dead reckoning": "circle, INS alone",
+    "circle, filter": "circle, P-V-A filter",
+    "circle, filter that levels": "**circle, P-V-A filter, fixes level the attitude**",
+}
+# (S1, S2, S3) as the thesis prints them, figures 4.30 to 4.41.
+THESIS_TURNS = {
+    "P +90": "-0.0619, 0.9981, 0.0004",
+    "P back": "0.9990, 0.0455, 0.0000",
+    "P -90": "-0.0559, -0.9984, -0.0030",
+    "P back again": "0.9969, 0.0784, 0.0025",
+    "Q +90": "0.9862, 0.1048, 0.1286",
+    "Q back": "0.9980, -0.0634, 0.0011",
+    "Q -90": "0.9975, -0.0642, 0.0301",
+    "Q back again": "1.0000, 0.0048, -0.0031",
+    "R +90": "-0.0545, 0.9985, 0.0076",
+    "R back": "0.9996, 0.0277, -0.0014",
+    "R -90": "0.0607, -0.9908, -0.1211",
+    "R back again": "0.9998, 0.0173, -0.0051",
+}
+KALMAN_ROWS = {
+    "1000 steps": "1000 steps",
+    "3000 steps": "3000 steps",
+    "3000 steps, signal x 10": "3000 steps, signal × 10",
+}
+
+
+def degrees_cell(value: float) -> str:
+    return f"{value:.1f}"
+
+
+def turns(points: Points) -> str:
+    rows = []
+    for name, printed in THESIS_TURNS.items():
+        *ours, off = (y for _, y in sorted(points["table_thesis_turns"][name].items()))
+        ideal = "1, 0, 0" if "Q" in name or "back" in name else "0, 1, 0" if "+" in name else "0, -1, 0"
+        here = ", ".join(f"{round(y, 4) + 0.0:.4f}" for y in ours)  # + 0.0: or -0.0 would show as -0.0000
+        rows.append(f"| {name} | {ideal} | {printed} | {here} | {round(off, 1) + 0.0:.1f} |")
+    return "\n".join(rows)
+
+
+def tables(points: Points) -> dict[Path, dict[str, str]]:
+    """Page, name of the table there, its rows."""
+    return {
+        ACCURACY: {
+            "coning": table(points["table_coning"], CONING_ROWS, coning_cell),
+            "increments": table(points["table_motion"], MOTION_ROWS, motion_cell),
+            "rates": table(points["table_motion"], RATE_ROWS, motion_cell),
+            "noise": table(points["table_noise"], NOISE_ROWS, motion_cell),
+        },
+        THESIS: {
+            "rest": table(points["table_thesis_rest"], REST_ROWS, degrees_cell),
+            "turns": turns(points),
+            "kalman": table(points["table_thesis_kalman"], KALMAN_ROWS, coning_cell),
+            "gain": table(points["table_thesis_gain"], KALMAN_ROWS, lambda y: f"{y:.4f}"),
+            "drive": table(points["table_thesis_drive"], DRIVE_ROWS, coning_cell),
+        },
     }
+
+
+def filled(path: Path, rows: dict[str, str]) -> str:
+    """The page with each table between its markers made anew."""
+    page = path.read_text(encoding="utf-8")
     for name, text in rows.items():
         pattern = rf"(<!-- rows: {name} -->\n(?:\|.*\n){{2}})(?:\|.*\n)*"
         page, found = re.subn(pattern, lambda m, text=text: m[1] + text + "\n", page)
         if found != 1:
-            raise SystemExit(f"{ACCURACY}: '<!-- rows: {name} -->' with two lines of table head must be there once")
+            raise SystemExit(f"{path}: '<!-- rows: {name} -->' with two lines of table head must be there once")
     return page
 
 
@@ -251,7 +320,7 @@ def differences(got: Points, want: Points) -> list[str]:
                 found += [
                     f"{place} at {x:g}: {new[x]:g}, committed {old[x]:g}"
                     for x in new
-                    if abs(new[x] - old[x]) > SAME * old[x]
+                    if abs(new[x] - old[x]) > SAME * abs(old[x]) + NEAR_ZERO.get(figure, 0.0)
                 ]
     return found
 
@@ -264,9 +333,9 @@ def stale() -> list[str]:
         path = FIGURES / f"{name}.svg"
         if not path.exists() or path.read_text(encoding="utf-8") != draw(name, points[name]):
             found.append(str(path.relative_to(ROOT)))
-    page = ACCURACY.read_text(encoding="utf-8")
-    if accuracy(points, page) != page:
-        found.append(str(ACCURACY.relative_to(ROOT)))
+    for page, rows in tables(points).items():
+        if filled(page, rows) != page.read_text(encoding="utf-8"):
+            found.append(str(page.relative_to(ROOT)))
     return found
 
 
@@ -285,7 +354,8 @@ def main() -> int:
     points = read_points()
     for name in SPECS:
         (FIGURES / f"{name}.svg").write_text(draw(name, points[name]), encoding="utf-8")
-    ACCURACY.write_text(accuracy(points, ACCURACY.read_text(encoding="utf-8")), encoding="utf-8")
+    for page, rows in tables(points).items():
+        page.write_text(filled(page, rows), encoding="utf-8")
     return 0
 
 
