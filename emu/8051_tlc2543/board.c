@@ -66,7 +66,7 @@ static void net_changed(void* ctx, bool level, emu_time_t at)
 {
     acq_net_t* const net = ctx;
     acq_board_t* const self = net->board;
-    if (net != self->driven && !net->cut)
+    if (!net->driving && !net->cut)
     {
         set_outside(net, level, at == self->synced_at ? self->synced : emu_ticker_tick(&self->clock, at));
     }
@@ -90,21 +90,24 @@ static unsigned lowest_bit(unsigned mask)
     return bit[(mask & (0u - mask)) % 11u];
 }
 
-/// Quasi-bidirectional: a 1 is a weak pull-up, on port 0 nothing; a 0 a strong low. While the CPU pulls low, what others put there
-/// does not matter to it; when it lets go, it does.
+/// Quasi-bidirectional: a 1 is a weak pull-up, on port 0 nothing; a 0 a strong low.
+static emu_drive_t drive_of(const acq_net_t* net, bool released)
+{
+    return net->cut ? EMU_Z : !released ? EMU_STRONG0 : net->port == 0 ? EMU_Z : EMU_WEAK1;
+}
+
+/// While the CPU pulls low, what others put there does not matter to it; when it lets go, it does.
 static void port_changed(void* ctx, unsigned port, uint8_t out, uint8_t changed, uint64_t cycle)
 {
     acq_board_t* const self = ctx;
-    const emu_drive_t high = port == 0 ? EMU_Z : EMU_WEAK1;
     sync_to(self, cycle);
     for (unsigned bits = changed; bits != 0; bits &= bits - 1u)
     {
         acq_net_t* const net = &self->nets[port][lowest_bit(bits)];
-        const acq_net_t* const outer = self->driven;
         const bool released = (out & net->mask) != 0;
-        self->driven = net;
-        emu_wire_drive(&net->wire, CPU, net->cut ? EMU_Z : released ? high : EMU_STRONG0, self->sched->now);
-        self->driven = outer;
+        net->driving = true;
+        emu_wire_drive(&net->wire, CPU, drive_of(net, released), self->sched->now);
+        net->driving = false;
         if (released && !net->cut && net->wire.level != ((self->outside[port] & net->mask) != 0))
         {
             set_outside(net, net->wire.level, cycle);
@@ -191,7 +194,7 @@ static void make_nets(acq_board_t* self)
         emu_wire_init(&net->wire, net->name, true);
         (void)emu_wire_add_driver(&net->wire);
         (void)emu_wire_add_driver(&net->wire);
-        emu_wire_drive(&net->wire, CPU, net->port == 0 ? EMU_Z : EMU_WEAK1, self->sched->now);
+        emu_wire_drive(&net->wire, CPU, drive_of(net, true), self->sched->now);
         (void)emu_wire_watch(&net->wire, net_changed, net);
     }
     memcpy(self->nets[3][0].name, "RXD", sizeof "RXD");
@@ -336,12 +339,7 @@ int acq_board_cut(acq_board_t* self, const char* name, bool cut)
     }
     const bool released = (mcs51_port_out(self->cpu, net->port) & net->mask) != 0;
     net->cut = cut;
-    emu_wire_drive(&net->wire, CPU,
-                   cut              ? EMU_Z
-                   : !released      ? EMU_STRONG0
-                   : net->port == 0 ? EMU_Z
-                                    : EMU_WEAK1,
-                   self->sched->now);
+    emu_wire_drive(&net->wire, CPU, drive_of(net, released), self->sched->now);
     set_outside(net, cut ? net->port != 0 || net->wire.level : net->wire.level, mcs51_cycle(self->cpu));
     return 0;
 }

@@ -13,6 +13,7 @@ typedef struct acq_net_t
 {
     acq_board_t* board;
     uint8_t port, mask;
+    bool driving;        ///< the CPU is changing its own drive
     bool cut;            ///< between the CPU's pin and the rest of the net
     char name[ACQ_NAME]; ///< of the wire
     emu_wire_t wire;
@@ -27,11 +28,10 @@ struct acq_board_t
     tlc2543_t* adcs[ACQ_ADCS_MAX];
     acq_net_t nets[4][8];
     uint8_t outside[4];
-    const acq_net_t* driven; ///< the CPU is changing its own drive there
-    bool running;            ///< inside mcs51_run()
-    emu_time_t goal;         ///< of acq_board_run()
-    uint64_t synced;         ///< the last cycle up to which events were fired ...
-    emu_time_t synced_at;    ///< ... and its instant
+    bool running;         ///< inside mcs51_run()
+    emu_time_t goal;      ///< of acq_board_run()
+    uint64_t synced;      ///< the last cycle up to which events were fired ...
+    emu_time_t synced_at; ///< ... and its instant
 };
 
 #endif // BOARD_INTERNAL_H_INCLUDED

@@ -46,6 +46,7 @@ enum
     PCON_PD = 0x02,
     PCON_POF = 0x10,
     PCON_SMOD = 0x80,
+    TCON_TR1 = 0x40,
     AUXR_DISRTO = 0x08,
     AUXR_WDIDLE = 0x10,
     IE_ET2 = 0x20,

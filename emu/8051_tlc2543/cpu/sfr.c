@@ -261,13 +261,17 @@ static void write_serial(mcs51_t* self, unsigned address, uint8_t value, uint64_
 
 static void write_power(mcs51_t* self, uint8_t value, uint64_t now)
 {
-    if ((value ^ self->mem[PCON]) & PCON_SMOD)
+    const bool baud = (value ^ self->mem[PCON]) & PCON_SMOD;
+    if (baud)
     {
         mcs51_uart_clock_changes(self, now);
     }
     self->mem[PCON] = value;
-    mcs51_plan(self);
-    self->attend_at = 0;
+    if (baud)
+    {
+        mcs51_plan(self);
+    }
+    self->attend_at = value & PCON_PD ? 0 : self->attend_at;
     mcs51_look_at(self, now);
 }
 
@@ -300,7 +304,10 @@ static void write_mode(mcs51_t* self, unsigned address, uint8_t value, uint64_t 
     }
     mcs51_timers_mode(self);
     self->overflow_known = false;
-    mcs51_plan(self);
+    if (address != TCON || ((value ^ old) & TCON_TR1))
+    {
+        mcs51_plan(self);
+    }
     mcs51_look_ahead(self, now);
 }
 

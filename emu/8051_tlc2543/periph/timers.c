@@ -45,7 +45,7 @@ static inline bool th0_runs(const mcs51_t* self)
 
 void mcs51_timers_mode(mcs51_t* self)
 {
-    self->counting = split(self) && (self->mem[TCON] & 0x40u) ? COUNTING_TH0 : 0;
+    self->counting = split(self) && (self->mem[TCON] & TCON_TR1) ? COUNTING_TH0 : 0;
     for (unsigned n = 0; n < 2; ++n)
     {
         if (!(self->mem[TMOD] >> 4 * n & TMOD_COUNTER) && enabled(self, n))

@@ -117,13 +117,14 @@ uint64_t emu_ticker_tick(const emu_ticker_t* self, emu_time_t t)
     }
     const double guess = (double)(t - self->at) * self->ticks_per_ps;
     uint64_t tick = guess > 0.0 ? self->tick + (uint64_t)guess : self->tick;
-    while (tick > 0 && instant(self, tick) >= t)
+    emu_time_t at = instant(self, tick);
+    while (tick > 0 && at >= t)
     {
-        tick--;
+        at = instant(self, --tick);
     }
-    while (instant(self, tick) < t)
+    while (at < t)
     {
-        tick++;
+        at = instant(self, ++tick);
     }
     return tick;
 }

@@ -26,8 +26,6 @@ int emu_wire_watch(emu_wire_t* self, emu_wire_fn fn, void* ctx)
 
 /// What a driver's four bits are, by emu_drive_t.
 static const uint8_t strength[] = {0, 1, 2, 4, 8};
-#define WEAK0      1u
-#define STRONG0    4u
 #define CONTENTION 12u
 
 /// Strengths that are there.
@@ -38,11 +36,12 @@ static unsigned present(uint32_t drives)
     return (drives | drives >> 4) & 15u;
 }
 
-/// Of a set that is not empty.
-static bool resolved(unsigned set)
+/// Level by set of strengths; 2: as it was. Strong over weak, low over high.
+enum
 {
-    return (set & (set >= STRONG0 ? STRONG0 : WEAK0)) == 0;
-}
+    KEPT = 2
+};
+static const uint8_t resolved[] = {KEPT, 0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0};
 
 static void set_level(emu_wire_t* self, bool level, emu_time_t at)
 {
@@ -62,7 +61,7 @@ static void settle(emu_wire_t* self, emu_time_t at)
     const bool gnd = self->rail == EMU_RAIL_GND || other->rail == EMU_RAIL_GND;
     const bool vcc = self->rail == EMU_RAIL_VCC || other->rail == EMU_RAIL_VCC;
     self->floating = !gnd && !vcc && set == 0;
-    const bool level = gnd || vcc ? !gnd : set == 0 ? self->level : resolved(set);
+    const bool level = gnd || vcc ? !gnd : set == 0 ? self->level : resolved[set] != 0;
     if (level != self->level)
     {
         set_level(self, level, at);
@@ -82,29 +81,20 @@ void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t 
 {
     const unsigned shift = 4u * (unsigned)driver;
     const uint32_t before = self->drives, drives = (before & ~(15u << shift)) | (uint32_t)strength[drive] << shift;
-    const unsigned set = present(drives);
-    bool level = self->level;
+    const unsigned set = present(drives), level = resolved[set];
     self->drives = drives;
     self->floating = set == 0;
-    if (set >= STRONG0)
+    if (set >= CONTENTION && (present(before) & CONTENTION) != CONTENTION)
     {
-        level = (set & STRONG0) == 0;
-        if ((set & CONTENTION) == CONTENTION && (present(before) & CONTENTION) != CONTENTION)
-        {
-            self->contentions++;
-        }
-    }
-    else if (set != 0)
-    {
-        level = (set & WEAK0) == 0;
+        self->contentions++;
     }
     if (self->shorted)
     {
         settle_shorted(self, at);
     }
-    else if (level != self->level)
+    else if (level != self->level && level != KEPT)
     {
-        set_level(self, level, at);
+        set_level(self, level != 0, at);
     }
 }
 
