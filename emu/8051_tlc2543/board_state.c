@@ -68,21 +68,25 @@ static void header(emu_state_t* io, uint64_t size, uint64_t hash)
 
 size_t acq_board_save(acq_board_t* self, uint8_t* octets, size_t size)
 {
-    emu_state_t count = {0};
-    walk(self, &count);
-    if (count.at + HEADER <= size)
+    emu_state_t body = {.to = size > HEADER ? octets + HEADER : NULL, .size = size > HEADER ? size - HEADER : 0};
+    walk(self, &body);
+    if (body.to != NULL && !body.bad)
     {
-        emu_state_t body = {.to = octets + HEADER, .size = count.at}, head = {.to = octets, .size = HEADER};
-        walk(self, &body);
+        emu_state_t head = {.to = octets, .size = HEADER};
         header(&head, body.at, fnv1a(octets + HEADER, body.at));
     }
-    return count.at + HEADER;
+    if (body.bad) // a walk ends where there is no room
+    {
+        body = (emu_state_t){0};
+        walk(self, &body);
+    }
+    return body.at + HEADER;
 }
 
 /// \return whether all of it was taken.
 static bool load(acq_board_t* self, const uint8_t* octets, size_t size)
 {
-    emu_state_t body = {.from = octets + HEADER, .size = size - HEADER};
+    emu_state_t body = {.from = octets, .size = size};
     walk(self, &body);
     return !body.bad && body.at == body.size;
 }
@@ -95,18 +99,19 @@ int acq_board_restore(acq_board_t* self, const uint8_t* octets, size_t size)
     }
     emu_state_t head = {.from = octets, .size = HEADER};
     header(&head, size - HEADER, fnv1a(octets + HEADER, size - HEADER));
-    const size_t now = acq_board_save(self, NULL, 0);
-    uint8_t* const before = head.bad ? NULL : malloc(now);
-    if (before == NULL)
+    emu_state_t now = {0};
+    walk(self, &now);
+    emu_state_t before = {.to = head.bad ? NULL : malloc(now.at), .size = now.at};
+    if (before.to == NULL)
     {
         return -1;
     }
-    (void)acq_board_save(self, before, now);
-    const bool loaded = load(self, octets, size);
+    walk(self, &before);
+    const bool loaded = load(self, octets + HEADER, size - HEADER);
     if (!loaded)
     {
-        (void)load(self, before, now);
+        (void)load(self, before.to, before.size);
     }
-    free(before);
+    free(before.to);
     return loaded ? 0 : -1;
 }

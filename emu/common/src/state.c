@@ -3,14 +3,24 @@
 #include "emu/state.h"
 #include <string.h>
 
-bool emu_state_loading(const emu_state_t* io)
+static inline bool loads(const emu_state_t* io)
 {
     return io->from != NULL;
 }
 
+static inline void check(emu_state_t* io, bool good)
+{
+    io->bad = io->bad || (loads(io) && !good);
+}
+
+bool emu_state_loading(const emu_state_t* io)
+{
+    return loads(io);
+}
+
 void emu_state_check(emu_state_t* io, bool good)
 {
-    io->bad = io->bad || (emu_state_loading(io) && !good);
+    check(io, good);
 }
 
 bool emu_state_time(emu_time_t t)
@@ -19,7 +29,7 @@ bool emu_state_time(emu_time_t t)
 }
 
 /// Pass `count` octets. \return whether they are there, to read or to write, from io->at - count on.
-static bool pass(emu_state_t* io, size_t count)
+static inline bool pass(emu_state_t* io, size_t count)
 {
     const bool counting = io->to == NULL && io->from == NULL;
     const bool fits = io->at <= io->size && count <= io->size - io->at;
@@ -34,7 +44,7 @@ void emu_state_octets(emu_state_t* io, void* octets, size_t count)
     {
         return;
     }
-    if (emu_state_loading(io))
+    if (loads(io))
     {
         memcpy(octets, io->from + (io->at - count), count);
     }
@@ -44,33 +54,71 @@ void emu_state_octets(emu_state_t* io, void* octets, size_t count)
     }
 }
 
-/// An unsigned number of `count` octets. \return what is there when loading, else the value.
-static uint64_t number(emu_state_t* io, uint64_t value, size_t count)
+static uint64_t get16(const uint8_t* from)
+{
+    return from[0] | (uint64_t)from[1] << 8;
+}
+
+static uint64_t get32(const uint8_t* from)
+{
+    return get16(from) | get16(from + 2) << 16;
+}
+
+static void put16(uint8_t* to, uint64_t value)
+{
+    to[0] = (uint8_t)value;
+    to[1] = (uint8_t)(value >> 8);
+}
+
+static void put32(uint8_t* to, uint64_t value)
+{
+    put16(to, value);
+    put16(to + 2, value >> 16);
+}
+
+static uint64_t get(const uint8_t* from, size_t count)
+{
+    return count == 1 ? from[0] : count == 2 ? get16(from) : get32(from) | (count == 8 ? get32(from + 4) << 32 : 0);
+}
+
+static void put(uint8_t* to, uint64_t value, size_t count)
+{
+    switch (count)
+    {
+    case 1:
+        *to = (uint8_t)value;
+        break;
+    case 2:
+        put16(to, value);
+        break;
+    case 8:
+        put32(to + 4, value >> 32); // and the lower half
+        // fall through
+    default:
+        put32(to, value);
+        break;
+    }
+}
+
+/// An unsigned number of 1, 2, 4 or 8 octets. \return what is there when loading, else the value.
+static inline uint64_t number(emu_state_t* io, uint64_t value, size_t count)
 {
     if (!pass(io, count))
     {
         return value;
     }
-    const size_t begin = io->at - count;
-    uint64_t loaded = 0;
-    for (size_t i = 0; i < count; i++)
+    if (loads(io))
     {
-        if (emu_state_loading(io))
-        {
-            loaded |= (uint64_t)io->from[begin + i] << 8 * i;
-        }
-        else
-        {
-            io->to[begin + i] = (uint8_t)(value >> 8 * i & 0xFFu);
-        }
+        return get(io->from + (io->at - count), count);
     }
-    return emu_state_loading(io) ? loaded : value;
+    put(io->to + (io->at - count), value, count);
+    return value;
 }
 
 void emu_state_bool(emu_state_t* io, bool* value)
 {
     const uint64_t loaded = number(io, *value, 1);
-    emu_state_check(io, loaded <= 1);
+    check(io, loaded <= 1);
     *value = loaded != 0;
 }
 

@@ -135,13 +135,14 @@ void emu_wire_state(emu_wire_t* self, emu_state_t* io)
 {
     uint8_t drivers = self->drivers;
     emu_state_u8(io, &drivers);
-    emu_state_check(io, drivers == self->drivers);
     emu_state_u32(io, &self->drives);
-    for (unsigned i = 0; i < EMU_WIRE_DRIVERS; i++)
+    bool good = drivers == self->drivers;
+    for (unsigned i = 0; good && i < EMU_WIRE_DRIVERS; i++)
     {
         const uint32_t bits = self->drives >> 4 * i & 15u;
-        emu_state_check(io, (bits & (bits - 1)) == 0 && (i < self->drivers || bits == 0));
+        good = (bits & (bits - 1)) == 0 && (i < self->drivers || bits == 0);
     }
+    emu_state_check(io, good);
     emu_state_bool(io, &self->level);
     emu_state_bool(io, &self->floating);
     emu_state_i64(io, &self->changed);

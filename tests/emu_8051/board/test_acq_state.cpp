@@ -140,8 +140,11 @@ TEST(acq_state, refuses_what_is_not_its_own_and_stays_as_it_was)
     EXPECT_EQ(acq_board_restore(board, octets.data(), octets.size()), -1) << "one octet too many";
     octets.pop_back();
     EXPECT_EQ(whole->save(), now) << "nothing was changed";
-    EXPECT_EQ(acq_board_save(board, octets.data(), octets.size() - 1), octets.size())
-        << "does not fit: nothing written";
+    for (const size_t room : {size_t{1}, size_t{24}, size_t{25}, octets.size() / 2, octets.size() - 1})
+    {
+        std::vector<uint8_t> small(room);
+        EXPECT_EQ(acq_board_save(board, small.data(), room), octets.size()) << "does not fit in " << room;
+    }
 
     acq_board_config_t other;
     emu_sched_t sched;

@@ -72,7 +72,7 @@ EMU_API int acq_board_cut(acq_board_t* self, const char* name, bool cut);
 EMU_API void acq_board_set_crystal(acq_board_t* self, int32_t ppb);
 
 /// All of the board, and the clock of its scheduler, as octets; between runs.
-/// \return the octets needed; they are written if size allows.
+/// \return the octets needed. If size is less, what was written means nothing.
 EMU_API size_t acq_board_save(acq_board_t* self, uint8_t* octets, size_t size);
 /// Into a board of the same configuration. Whatever else is on the board's wires and scheduler is its owner's to restore, afterwards.
 /// \return 0; -1 and the board unchanged: other magic, version, part, memory, crystal or converters, wrong length, octets changed since, or no memory.
