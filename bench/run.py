@@ -140,8 +140,9 @@ def main() -> int:
     counted = [path for path in sorted((ROOT / "tests/system").glob("test_*.py")) if "INS_BENCH" in path.read_text()]
     system = subprocess.run([sys.executable, "-m", "pytest", "-q", *counted], cwd=ROOT, env=environment)
     mutation = subprocess.run([sys.executable, ROOT / "bench/mutation.py"])
+    planted = subprocess.run([sys.executable, ROOT / "bench/f2812/mutants.py"])
     proof = subprocess.run([sys.executable, ROOT / "tests/proof/prove.py"])
-    return 0 if kept and all(part.returncode == 0 for part in (long, system, mutation, proof)) else 1
+    return 0 if kept and all(part.returncode == 0 for part in (long, system, mutation, planted, proof)) else 1
 
 
 if __name__ == "__main__":

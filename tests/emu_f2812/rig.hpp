@@ -27,6 +27,7 @@ struct rig
     };
 
     static constexpr uint64_t OSC_HZ = 30000000;
+    static constexpr size_t INTERRUPTS_MAX = 100; ///< that serve() takes at once
     emu_sched_t sched;
     std::vector<report> reports;
     f2812_t* dsp;
@@ -99,6 +100,11 @@ struct rig
         f2812_context_t saved;
         while (f2812_interrupt_pending(dsp))
         {
+            if (vectors.size() == INTERRUPTS_MAX)
+            {
+                ADD_FAILURE() << "interrupts without end";
+                break;
+            }
             vectors.push_back(f2812_take_interrupt(dsp, &saved));
             if (vectors.back() >= F2812_VECTOR_PIE)
             {
