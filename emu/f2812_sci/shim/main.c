@@ -3,21 +3,19 @@
 #define _XOPEN_SOURCE 700
 #include "emu/serial.h"
 #include "emu_f2812/registers.h"
+#include "fault.h"
 #include "pipe.h"
 #include "summary.h"
 #include <errno.h>
 #include <inttypes.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define PORTS       2u
 #define LINES_MAX   4u
 #define EXIT_USAGE  2
 #define EXIT_STRICT 3
-#define EXIT_FAULT  4
 #define SLICE       (10 * 1000 * EMU_PS_PER_US) ///< how often files are looked at
 #define HOST_BEGINS 0.1                         ///< [s] the firmware has set up its ports by then
 
@@ -303,6 +301,7 @@ static void go(run_t* run, f2812_shim_t* shim)
 int main(int argc, char** argv)
 {
     static run_t run = {.stop_s = 1e6, .host_at_s = HOST_BEGINS};
+    f2812_catch_faults(f2812_program.name);
     if (argc == 3 && strcmp(argv[1], "--pipe") == 0)
     {
         return f2812_pipe_main((int)number(argv[1], argv[2]), &f2812_program);

@@ -5,8 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <ucontext.h>
 
+#define GUARD_OCTETS    ((size_t)4096)
 #define STACK_OCTETS    ((size_t)1 << 20)
 #define REPORT_OCTETS   160
 #define WORD_OCTETS     2u
@@ -26,8 +28,8 @@ typedef struct coroutine_t
     bool inside;  ///< the firmware runs, not the host
     bool started; ///< it has a stack to go on with
     leave_t why;
-    uint32_t debt; ///< f2812_shim_debt while it does not run
-    uint64_t stack[STACK_OCTETS / sizeof(uint64_t)];
+    uint32_t debt;  ///< f2812_shim_debt while it does not run
+    uint8_t* stack; ///< its lowest page may not be touched
 } coroutine_t;
 
 static coroutine_t* coroutine_of(const f2812_shim_t* self)
@@ -140,7 +142,7 @@ static void start(f2812_shim_t* self)
     f2812_shim_debt = 0;
     self->stats.starts++;
     (void)getcontext(&c->firmware);
-    c->firmware.uc_stack.ss_sp = c->stack;
+    c->firmware.uc_stack.ss_sp = c->stack + GUARD_OCTETS;
     c->firmware.uc_stack.ss_size = STACK_OCTETS;
     c->firmware.uc_link = NULL;
     makecontext(&c->firmware, enter, 0);
@@ -244,9 +246,27 @@ static bool make_map(f2812_shim_t* self)
     return true;
 }
 
+static bool make_coroutine(f2812_shim_t* self)
+{
+    coroutine_t* const c = calloc(1, sizeof *c);
+    self->coroutine = c;
+    if (c == NULL)
+    {
+        return false;
+    }
+    c->stack = aligned_alloc(GUARD_OCTETS, GUARD_OCTETS + STACK_OCTETS);
+    return c->stack != NULL && mprotect(c->stack, GUARD_OCTETS, PROT_NONE) == 0;
+}
+
 static void free_all(f2812_shim_t* self)
 {
-    free(self->coroutine);
+    coroutine_t* const c = coroutine_of(self);
+    if (c != NULL && c->stack != NULL)
+    {
+        (void)mprotect(c->stack, GUARD_OCTETS, PROT_READ | PROT_WRITE);
+        free(c->stack);
+    }
+    free(c);
     free(self->initial);
     free(self->map);
     free(self);
@@ -280,9 +300,8 @@ f2812_shim_t* f2812_shim_create(f2812_t* device, emu_sched_t* sched, const f2812
     self->report = report != NULL ? *report : (emu_report_t){0};
     self->skip = true;
     self->until = (emu_event_t){.fire = until_fire, .ctx = self};
-    self->coroutine = calloc(1, sizeof(coroutine_t));
     self->initial = malloc(octets + 1);
-    if (self->coroutine == NULL || self->initial == NULL || !make_map(self))
+    if (!make_coroutine(self) || self->initial == NULL || !make_map(self))
     {
         free_all(self);
         return NULL;
@@ -323,6 +342,15 @@ void f2812_shim_set_skip(f2812_shim_t* self, bool on)
 const char* f2812_shim_end(const f2812_shim_t* self)
 {
     return self->end;
+}
+
+bool f2812_shim_overflows(uintptr_t at)
+{
+    if (f2812_shim_current == NULL)
+    {
+        return false;
+    }
+    return at - (uintptr_t)coroutine_of(f2812_shim_current)->stack < GUARD_OCTETS;
 }
 
 const f2812_shim_stats_t* f2812_shim_stats(const f2812_shim_t* self)

@@ -83,6 +83,8 @@ void f2812_shim_idle(f2812_shim_t* self);
 /// The firmware stops for good; does not return.
 void f2812_shim_finish(f2812_shim_t* self, const char* why);
 void f2812_shim_error(f2812_shim_t* self, emu_report_kind_t kind, const char* text, uint32_t detail);
+/// Whether an address is just below the stack of the firmware that runs.
+bool f2812_shim_overflows(uintptr_t at);
 /// Called by tick.S. kept: the registers a function keeps, lowest first, the return address, and the caller's frame.
 void f2812_shim_turn(const uintptr_t* kept);
 

@@ -1,0 +1,6 @@
+#include "DSP281x_Device.h"
+
+void main(void)
+{
+    *(volatile Uint16*)0x7050 = 7;
+}
