@@ -6,7 +6,9 @@ import subprocess
 import typing
 from pathlib import Path
 
-from libins import cli, scenario
+import pytest
+
+from libins import cli, net_tables, scenario
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -21,11 +23,13 @@ def keys(schema: type) -> set[str]:
     return found
 
 
-def test_every_scenario_key_is_documented():
-    page = "".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in ("scenarios.md", "faults.md"))
+@pytest.mark.parametrize("schema", [scenario.Tables, net_tables.Single, net_tables.Many])
+def test_every_scenario_key_is_documented(schema):
+    pages = ["scenarios.md", "faults.md", *([] if schema is scenario.Tables else ["f2812_scenarios.md"])]
+    page = "".join((ROOT / "docs" / name).read_text(encoding="utf-8") for name in pages)
     missing = [
         key
-        for key in sorted(keys(scenario.Tables))
+        for key in sorted(keys(schema))
         if f"`{key}`" not in page and f"`[{key}]`" not in page and f"`[[{key}]]`" not in page
     ]
     assert missing == []

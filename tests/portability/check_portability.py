@@ -17,7 +17,17 @@ CORE = ROOT / "libins" / "core"
 SOURCES = sorted((CORE / "src").glob("*.c"))
 NUMBERS = ([], ["-DINS_REAL_FLOAT"])
 WARNINGS = ["-std=c11", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror", f"-I{CORE}/include"]
-PARSERS = ["handshake_board", "handshake_host", "link_board", "link_host", "gimu", "nmea", "nav_block", "quat", "rotvec"]
+PARSERS = [
+    "handshake_board",
+    "handshake_host",
+    "link_board",
+    "link_host",
+    "gimu",
+    "nmea",
+    "nav_block",
+    "quat",
+    "rotvec",
+]
 # (file, a mask of an octet that comes in, the same without it): each must change the transcript of dirty octets.
 MASKS = [
     ("handshake_board.c", "octet = block[i] & 0xFFu;", "octet = block[i];"),
@@ -85,7 +95,21 @@ def transcript(folder: Path, cc: str, wide: bool, fault: tuple[str, str, str] | 
     octets = ["-include", str(HERE / "wide_octets.h")] if wide else []
     options = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Wpedantic", "-Werror", f"-I{CORE}/include"]
     sanitize = ["-fsanitize=undefined", "-fno-sanitize-recover=all"]
-    run_all([[cc, *octets, *options, *([] if fault else sanitize), str(HERE / "octets.c"), *files, "-o", str(program), "-lm"]])
+    run_all(
+        [
+            [
+                cc,
+                *octets,
+                *options,
+                *([] if fault else sanitize),
+                str(HERE / "octets.c"),
+                *files,
+                "-o",
+                str(program),
+                "-lm",
+            ]
+        ]
+    )
     done = subprocess.run([str(program), *(["dirty"] if wide else [])], capture_output=True, text=True, check=False)
     if done.returncode != 0 and fault is None:
         sys.exit(done.stderr)

@@ -15,13 +15,14 @@ import contextlib
 import copy
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from libins import cdb, faults, run, scenario, snapshot
-from libins.board_uart import ExpectError, Inbox, Octet, Pattern, failure, seconds, shown
+from libins.bench import Bench, Input, never
+from libins.board_uart import ExpectError, Inbox, Octet, Pattern, seconds, shown
 from libins.board_views import Memory, Pins, Registers, Variables, Volts
 from libins.errors import UsageError
 from libins.observe import Observation, Wanted
@@ -29,6 +30,7 @@ from libins.report import report_line
 from libins.run import PS_PER_S
 from libins.schema import Document, leaves
 from libins.snapshot import Snapshot
+from libins.tables import RAM_OCTETS, Motion
 
 __all__ = ["Board", "ExpectError", "Snapshot"]
 
@@ -36,16 +38,7 @@ CHANNELS = 11
 ADDRESSES = 0x10000
 
 
-@dataclass(frozen=True)
-class Input:
-    """Something the outside did to the board, so that it can be done again."""
-
-    at_ps: int
-    what: str
-    arguments: tuple[Any, ...]
-
-
-class Board:
+class Board(Bench):
     """One board and its firmware, from power-on. Raises UsageError for what cannot be."""
 
     def __init__(
@@ -72,7 +65,7 @@ class Board:
             if firmware is not None:
                 document.override({"firmware": _image(firmware)}, "Board")
             document.override(dict(leaves(keys)), "Board")
-            scenario_file = scenario.read(document, None)
+            scenario_file = scenario.read(document)
         elif keys or firmware is not None:
             raise UsageError("Board: a scenario that is loaded takes no keys")
         self.scenario = scenario_file
@@ -86,7 +79,7 @@ class Board:
         tables = self.scenario.tables
         self._run = run.build(self.scenario, tables.seed, not self._navigator, self._trace, listen=True)
         self._inbox = Inbox()
-        self.iram = Memory("iram", scenario.RAM_OCTETS[tables.part], self._run.read, self._do)
+        self.iram = Memory("iram", RAM_OCTETS[tables.part], self._run.read, self._do)
         self.xdata = Memory("xdata", tables.xdata_octets, self._run.read, self._do)
         self.code = Memory("code", ADDRESSES, self._run.read, self._do)
         self.sfr = Registers(self._run.read, self._do)
@@ -100,7 +93,7 @@ class Board:
         """Another image, from power-on."""
         document = Document(self.scenario.path, copy.deepcopy(dict(self.scenario.table)))
         document.override({"firmware": _image(firmware)}, "Board.load")
-        self.scenario = scenario.read(document, None)
+        self.scenario = scenario.read(document)
         self.__dict__.pop("symbols", None)
         self._power_on()
 
@@ -112,11 +105,6 @@ class Board:
         return int(self._run.now_ps)
 
     @property
-    def now_s(self) -> float:
-        """Simulated time since power-on [s]."""
-        return self.now_ps / PS_PER_S
-
-    @property
     def cycles(self) -> int:
         """Machine cycles since power-on."""
         return int(self._run.counters()["cycles"])
@@ -125,27 +113,6 @@ class Board:
     def pc(self) -> int:
         """Address of the next instruction."""
         return int(self._run.pc)
-
-    def run_for(self, seconds: float) -> None:
-        """Let simulated time pass."""
-        if not 0 <= seconds <= 1e6:
-            raise UsageError(f"run_for({seconds}): 0 to 1e6 seconds are possible")
-        self._advance(self.now_ps + round(seconds * PS_PER_S))
-
-    def run_until(self, when: float | Callable[[], bool], within_s: float = 1.0, every_s: float = 1e-3) -> None:
-        """Until an instant [s], or until a condition holds, which is looked at every so often.
-
-        Raises TimeoutError when it does not hold within_s from now.
-        """
-        __tracebackhide__ = True
-        if not callable(when):
-            self.run_for(when - self.now_s)
-            return
-        end = self.now_ps + round(within_s * PS_PER_S)
-        while not when():
-            if self.now_ps >= end:
-                raise TimeoutError(f"{when} did not hold within {within_s:g} s; {self.where()}")
-            self._advance(min(end, self.now_ps + round(every_s * PS_PER_S)))
 
     def run_to(self, place: int | str, within_s: float = 1.0) -> None:
         """Until the instruction at an address, or the first of a C function, is the next one.
@@ -163,9 +130,9 @@ class Board:
         if not reached:
             raise TimeoutError(f"{place} was not reached within {within_s:g} s; {self.where()}")
 
-    def _advance(self, end_ps: int, done: Callable[[], bool] = lambda: False, to_octet: bool = False) -> bool:
+    def _advance(self, end_ps: int, done: Callable[[], bool] = never, octet_at: str | None = None) -> bool:
         """To an instant, or until the run stops with `done` true. Returns whether it was done."""
-        go = self._run.until_octet if to_octet else self._run.until
+        go = self._run.until if octet_at is None else self._run.until_octet
         while self.now_ps < end_ps:
             goal = min(end_ps, self._next_keep_ps())
             reached = go(goal)
@@ -192,20 +159,7 @@ class Board:
         Raises ExpectError.
         """
         __tracebackhide__ = True
-        start = self.now_ps
-        end = start + round(within_s * PS_PER_S)
-        found: list[re.Match[bytes]] = []
-
-        def matched() -> bool:
-            match = self._inbox.take(pattern)
-            found.extend([match] if match else [])
-            return match is not None
-
-        if not matched() and not self._advance(end, matched, to_octet=True):
-            wanted = repr(pattern if isinstance(pattern, bytes) else pattern.pattern)
-            baud = self.scenario.tables.link.baud
-            raise ExpectError(failure(wanted, self._inbox, start, self.now_ps, baud, self.where()))
-        return found[0]
+        return self._expect("uart", self._inbox, pattern, within_s, self.scenario.tables.link.baud)
 
     @property
     def received(self) -> list[Octet]:
@@ -224,7 +178,7 @@ class Board:
         return self.pins[name]
 
     @property
-    def motion(self) -> scenario.Motion:
+    def motion(self) -> Motion:
         """The true motion of the sensors. Assign the keys of a [motion] table to change it from this instant on."""
         return self.scenario.tables.motion
 
@@ -358,13 +312,6 @@ class Board:
             raise UsageError("past: nothing was remembered; call keep() first")
         return self._past[0][0], [each for _, inputs in self._past for each in inputs]
 
-    def repeat(self, inputs: list[Input], end_ps: int) -> None:
-        """Do again what the outside did, each at its instant, and run to the end."""
-        for each in inputs:
-            self._advance(each.at_ps)
-            self._do(each.what, *each.arguments)
-        self._advance(end_ps)
-
     def _do(self, what: str, *arguments: Any) -> Any:
         """Every change from outside passes here."""
         note = Input(self.now_ps, what, arguments)
@@ -374,7 +321,8 @@ class Board:
             arguments = (run.motion_of(self.scenario),)
         elif what == "add_fault":
             tables = self.scenario.tables
-            fault = faults.parsed(arguments[0], self.now_s, scenario.RAM_OCTETS[tables.part])
+            target = faults.acquisition(RAM_OCTETS[tables.part])
+            fault = faults.parsed(arguments[0], self.now_s, lambda *_: target)
             arguments = (faults.built(fault, tables.seed, len(self._run.fault_hits()), self.now_s),)
         try:
             result = getattr(self._run, what)(*arguments)

@@ -24,6 +24,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from libins import campaign_worker, scenario, schema
 from libins.errors import UsageError
+from libins.tables import Loaded
 
 CLUSTER = r"local:[1-9]\d{0,2}|\w+://.+|(?!local:)[\w.-]+:\d+"
 RUNS_LIMIT = 1_000_000
@@ -96,7 +97,7 @@ def _varies(document: schema.Document, key: tuple[str, ...], table: Any) -> Iter
         raise document.refuse(("campaign", *key), f"{how}: found {given!r}, but {NEEDED[how]} is needed")
     if key == ("seed",):
         raise document.refuse(("campaign", "seed"), "is numbered by the campaign itself; choose the first by --seed")
-    integer = schema.kind(scenario.Tables, key) is int
+    integer = schema.kind(scenario.schema_of(document), key) is int
     if integer and how == "uniform" and not all(isinstance(bound, int) for bound in given):
         raise document.refuse(("campaign", *key), f"uniform: found {given!r}, but the key takes integers")
     yield Vary(".".join(key), how, given, integer)
@@ -125,8 +126,7 @@ class Campaign:
         digest = hashlib.sha256()
         alone = [{vary.key: value} for vary in self.varies for value in vary.extremes()]
         for variation in ({}, *alone):
-            loaded = self._load(0, variation)
-            digest.update(repr((loaded.image, [table.tolist() for table in loaded.tables_read()])).encode())
+            digest.update(repr(self._load(0, variation).contents()).encode())
         self.identity: dict[str, Any] = {
             "build": campaign_worker.build(),
             "scenario": hashlib.sha256(self.path.read_bytes()).hexdigest(),
@@ -135,7 +135,7 @@ class Campaign:
             "files": digest.hexdigest(),
         }
 
-    def load_base(self) -> scenario.Scenario:
+    def load_base(self) -> Loaded:
         """The scenario with nothing varied. Raises UsageError."""
         return self._load(0, {})
 
@@ -143,11 +143,11 @@ class Campaign:
         """Values of the varied keys in the run of that seed, by dotted name."""
         return {vary.key: vary.draw(seed) for vary in self.varies}
 
-    def load(self, seed: int) -> scenario.Scenario:
+    def load(self, seed: int) -> Loaded:
         """The scenario of the run of that seed. Raises UsageError."""
         return self._load(seed, self.variation(seed))
 
-    def _load(self, seed: int, variation: Mapping[str, Any]) -> scenario.Scenario:
+    def _load(self, seed: int, variation: Mapping[str, Any]) -> Loaded:
         return scenario.load(self.path, None, {**self.settings, "seed": seed}, variation, self.origin)
 
     def command(self, row: Row) -> list[str]:

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from libins.errors import UsageError
-from libins.scenario import Scenario
+from libins.tables import Loaded
 
 IGNORED = ("scenario", "matrix", "seed", "wall_s", "speed", "reports", "not_judged", "failed", "verdict", "dds")
 """Of a run's summary: not measured, or in a column of its own."""
@@ -40,7 +40,7 @@ def lost(outcome: str, error: str) -> dict[str, Any]:
     return {"outcome": outcome, "error": error, "measured": {}, "wall_s": 0.0}
 
 
-def run_in_child(scenario: Scenario, needed: str) -> dict[str, Any]:
+def run_in_child(scenario: Loaded, needed: str) -> dict[str, Any]:
     """Outcome, error, measured and wall_s of a run, by this thread's child. Raises UsageError in another build."""
     if build() != needed:
         raise UsageError("a worker has another build of libins than the campaign; install the same on both")
@@ -64,7 +64,7 @@ def run_in_child(scenario: Scenario, needed: str) -> dict[str, Any]:
         return lost("crash", f"the process of the run ended by {reason}")
 
 
-def measure(scenario: Scenario) -> dict[str, Any]:
+def measure(scenario: Loaded) -> dict[str, Any]:
     """The run itself, here."""
     from libins import report, run
 
@@ -105,7 +105,7 @@ class Pool:
         self._executor = executor
         self.width = width
 
-    def submit(self, scenario: Scenario, needed: str) -> "Future[dict[str, Any]]":
+    def submit(self, scenario: Loaded, needed: str) -> "Future[dict[str, Any]]":
         """Begin a run."""
         return self._executor.submit(run_in_child, scenario, needed)
 

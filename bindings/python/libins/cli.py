@@ -12,10 +12,12 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from libins import campaign, debug_cli, endpoint, report, run, scenario, seeing
-from libins.errors import UsageError
+from libins.errors import CrashError, UsageError
 from libins.program import CONSOLES, Program, address, exit_place
+from libins.tables import PACKAGE, Loaded
 
 EXIT_USAGE = 2
+EXIT_CRASH = 3
 
 
 def parser() -> argparse.ArgumentParser:
@@ -29,13 +31,13 @@ def parser() -> argparse.ArgumentParser:
         "run",
         help="run a scenario on an emulated board",
         description="Exit codes: 0 all expectations met, 1 one failed, 2 bad usage or scenario, "
-        "3 the firmware did something wrong (with --strict), 42 the simulated time ran out. "
+        "3 the firmware did something wrong (with --strict) or crashed, 42 the simulated time ran out. "
         "A scenario with a [matrix] is run once for each combination; its files are numbered F.1.csv, F.2.csv ..., "
         "--json is a list, and the exit code the largest.",
     )
     r.add_argument(
         "scenario",
-        help="a TOML file, the name of one that comes with the package (default, s3_paper), or an image alone (F.ihx)",
+        help="a TOML file, the name of one that comes with the package (default), or a program alone (F.ihx, F.f2812)",
     )
     r.add_argument(
         "--firmware",
@@ -52,6 +54,13 @@ def parser() -> argparse.ArgumentParser:
         metavar="KEY=VALUE",
         help="another value for a key of the scenario, for example link.baud=19200",
     )
+    r.add_argument(
+        "--switch",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="of the F2812, where TI's papers leave something open; docs/f2812.md lists them",
+    )
     r.add_argument("--json", type=Path, metavar="F", help="write the summary there ('-': standard output)")
     r.add_argument("--junit", type=Path, metavar="F.xml", help="write a test case for every expectation")
     r.add_argument("--report", type=Path, metavar="F.html", help="write a report with plots")
@@ -65,7 +74,13 @@ def parser() -> argparse.ArgumentParser:
     )
     r.add_argument("--strict", action="store_true", help="exit 3 when the firmware did something wrong")
     r.add_argument("--dds", action="store_true", help="publish the navigation states while they come")
-    r.add_argument("--serial", metavar="NAME=pty[:LINK]|tcp:PORT|file:F", help="tie a UART of the board to the outside")
+    r.add_argument(
+        "--serial",
+        action="append",
+        default=[],
+        metavar="NAME=pty[:LINK]|tcp:PORT|file:F",
+        help="tie a UART of the board to the outside: uart; of an F2812 scia, scib; of several boards a host's name",
+    )
     r.add_argument(
         "--wait", action="store_true", help="with --serial: power the board when somebody opens the other end"
     )
@@ -197,11 +212,12 @@ def _run_command(options: argparse.Namespace) -> int:
     if options.report is not None:
         _page()  # missing before the run rather than after it
     settings = dict(map(scenario.setting, options.set))
+    settings |= dict(map(scenario.switch, options.switch))
     given = {key: getattr(options, key) for key in ("seed", "stop_s", "part", "code_octets", "xdata_octets")}
     settings |= {key: value for key, value in given.items() if value is not None}
     log = sys.stdout if options.console is None else sys.stderr
     runs = scenario.load_all(scenario.find(options.scenario), options.firmware, settings)
-    if len(runs) > 1 and options.serial is not None:
+    if len(runs) > 1 and options.serial:
         raise UsageError(f"--serial: {options.scenario} makes {len(runs)} runs; choose one with --set and --firmware")
     handle = open_dds(options, publishes=True) if options.dds else None
     results: list[tuple[str, run.Result]] = []
@@ -228,14 +244,16 @@ def _run_command(options: argparse.Namespace) -> int:
     return worst
 
 
-def _run_one(loaded: scenario.Scenario, options: argparse.Namespace, handle: Any, number: int | None) -> run.Result:
+def _run_one(loaded: Loaded, options: argparse.Namespace, handle: Any, number: int | None) -> run.Result:
     """One run and its files; number: which of several, for the files' names."""
 
     def place(path: Path) -> Path:
         return path if number is None else path.with_name(f"{path.stem}.{number}{path.suffix}")
 
     console = Console(stderr=True)
+    endpoints: dict[str, endpoint.Endpoint] = {}
     settings = run.Options(
+        endpoints=endpoints,
         speed=_speed(options.speed),
         strict=options.strict,
         program=_program(options),
@@ -247,13 +265,15 @@ def _run_one(loaded: scenario.Scenario, options: argparse.Namespace, handle: Any
         settings.publish = lambda state: handle.publish(state, loaded.name, time.time_ns())
     trace_lines = ["t_ps,wire,level\n"]
     if options.trace is not None:
-        settings.trace = lambda edges: trace_lines.extend(report.trace_lines(edges))
+        settings.trace = lambda wires, edges: trace_lines.extend(report.trace_lines(wires, edges))
     try:
-        if options.serial is not None:
-            settings.endpoint = endpoint.open_endpoint(options.serial)
-            print(f"uart: {settings.endpoint.label}", file=sys.stderr, flush=True)
-            while options.wait and not settings.endpoint.connected():
-                time.sleep(0.01)
+        for option in options.serial:
+            name, opened = endpoint.open_endpoint(option, [name for name in loaded.serial() if name not in endpoints])
+            endpoints[name] = opened
+        for name, opened in endpoints.items():
+            print(f"{name}: {opened.label}", file=sys.stderr, flush=True)
+        while options.wait and not all([each.connected() for each in endpoints.values()]):
+            time.sleep(0.01)
         with Progress(
             TextColumn("{task.description}"),
             BarColumn(),
@@ -267,8 +287,8 @@ def _run_one(loaded: scenario.Scenario, options: argparse.Namespace, handle: Any
             settings.progress = lambda t, _: progress.update(task, completed=t)
             result = run.execute(loaded, settings)
     finally:
-        if settings.endpoint is not None:
-            settings.endpoint.close()
+        for each in endpoints.values():
+            each.close()
         if settings.watch is not None:
             settings.watch.close()
     if options.profile is not None:
@@ -276,7 +296,7 @@ def _run_one(loaded: scenario.Scenario, options: argparse.Namespace, handle: Any
 
         _write(place(options.profile), profile.text(result.summary["observed"]))
     if options.states is not None:
-        _write(place(options.states), report.states_csv(result.states))
+        _write(place(options.states), report.states_csv(result.columns, result.states))
     if options.trace is not None:
         _write(place(options.trace), "".join(trace_lines))
     if options.report is not None:
@@ -295,7 +315,7 @@ def _page() -> Any:
 
 def navd_path() -> Path:
     """Where the daemon's binary is. Raises UsageError."""
-    path = scenario.PACKAGE / "bin" / "ins-navd"
+    path = PACKAGE / "bin" / "ins-navd"
     if not path.exists():
         raise UsageError(f"{path}: ins-navd is not built; run ./dev demo or ./dev test once")
     return path
@@ -340,6 +360,9 @@ def main(arguments: list[str] | None = None) -> int:
     except UsageError as error:
         print(f"ins: {error}", file=sys.stderr)
         return EXIT_USAGE
+    except CrashError as error:
+        print(f"ins: {error}", file=sys.stderr)
+        return EXIT_CRASH
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:

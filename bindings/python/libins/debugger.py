@@ -174,11 +174,11 @@ def open_scenario(
         debugger.restore(snap)
         return debugger
     path = scenario.find(name)
-    loaded = scenario.load(path, firmware, settings)
+    loaded = scenario.load_board(path, firmware, settings)
     image = loaded.firmware
     debug = image.with_name(f"{image.stem}_debug{image.suffix}")
     if not image.with_suffix(".cdb").exists() and debug.exists() and debug.with_suffix(".cdb").exists():
-        loaded = scenario.load(path, debug, settings)
+        loaded = scenario.load_board(path, debug, settings)
     return Debugger(loaded, _table(loaded.firmware), navigator)
 
 

@@ -24,7 +24,9 @@ from libins import page, report, run, scenario
 from libins.cli import EXIT_USAGE, navd_path
 from libins.endpoint import Pty
 from libins.errors import UsageError
+from libins.machine import AcquisitionMachine
 from libins.run import AXES, COLUMNS, PS_PER_S, Array, Result
+from libins.scenario import Scenario
 
 ERROR_LIMIT_RAD = 3e-3
 RECEIVED_LIMIT = 0.95
@@ -151,7 +153,7 @@ def scored(message: dict[str, Any], scans: Array, motion: Any, taken_ns: list[in
     return row
 
 
-def real_time(loaded: scenario.Scenario, stop_s: float, domain: int, folder: Path) -> Result:
+def real_time(loaded: Scenario, stop_s: float, domain: int, folder: Path) -> Result:
     """The three processes, at the speed of the real board. Raises UsageError when one of them ends early."""
     nav = loaded.tables.nav
     assert nav is not None
@@ -171,14 +173,15 @@ def real_time(loaded: scenario.Scenario, stop_s: float, domain: int, folder: Pat
         navd = Child("ins-navd", [str(navd_path()), *options], folder)
         children.append(navd)
         time.sleep(1.0)  # discovery; a late reader would only miss the first states
-        board = run.build(loaded, loaded.tables.seed, outside=True, trace=False)
+        machine = AcquisitionMachine(loaded, loaded.tables.seed, outside=True, trace=False)
+        board = machine.run
         motion = run.motion_of(loaded)
         start = time.monotonic()
         pacer = run.Pacer(1.0)
         stop_ps = round(stop_s * PS_PER_S)
         with Screen() as screen:
             while board.now_ps < stop_ps:
-                pacer.step(board, stop_ps, pty)
+                pacer.step(machine, stop_ps, {"uart": pty})
                 taken_ns += [time.time_ns()] * (board.counters()["sampled"] - len(taken_ns))
                 while not subscriber.lines.empty():
                     latest = subscriber.lines.get()
@@ -199,7 +202,7 @@ def real_time(loaded: scenario.Scenario, stop_s: float, domain: int, folder: Pat
 
 
 def _judged(
-    loaded: scenario.Scenario, board: Any, rows: list[Array], received: int, latest: dict[str, Any], wall_s: float
+    loaded: Scenario, board: Any, rows: list[Array], received: int, latest: dict[str, Any], wall_s: float
 ) -> Result:
     states = np.array(rows) if rows else np.empty((0, len(COLUMNS)))
     scans = board.scans()
@@ -246,7 +249,7 @@ def _judged(
     return Result(summary, states, scans, 1 if failed else 0)
 
 
-def virtual(loaded: scenario.Scenario, stop_s: float) -> Result:
+def virtual(loaded: Scenario, stop_s: float) -> Result:
     """Everything in this process, as fast as it goes."""
     last: list[Array] = []
     with Screen() as screen:
@@ -268,7 +271,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--folder", type=Path, default=Path("build/demo"), metavar="D", help="for the report and logs")
     options = parser.parse_args(arguments)
     try:
-        loaded = scenario.load(scenario.find("default"))
+        loaded = scenario.load_board(scenario.find("default"))
         options.folder.mkdir(parents=True, exist_ok=True)
         if options.fast:
             result = virtual(loaded, options.seconds)

@@ -5,6 +5,7 @@ import os
 import select
 import socket
 import tty
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Protocol
 
@@ -164,12 +165,19 @@ class File:
         self._file.close()
 
 
-def open_endpoint(option: str) -> Endpoint:
-    """From `NAME=pty[:LINK]`, `NAME=tcp:PORT` or `NAME=file:PATH`; the acquisition board has one UART, named uart."""
+def open_endpoint(option: str, names: Sequence[str]) -> tuple[str, Endpoint]:
+    """From `NAME=pty[:LINK]`, `NAME=tcp:PORT` or `NAME=file:PATH`; names: those that there are. Raises UsageError."""
     name, _, rest = option.partition("=")
+    if name not in names:
+        known = f"its only one is {names[0]!r}" if len(names) == 1 else f"there are {', '.join(map(repr, names))}"
+        raise UsageError(
+            f"--serial {option}: this board has no serial line {name!r}; {known if names else 'it has none'}"
+        )
+    return name, _opened(option, rest)
+
+
+def _opened(option: str, rest: str) -> Endpoint:
     kind, _, argument = rest.partition(":")
-    if name != "uart":
-        raise UsageError(f"--serial {option}: this board has no serial line {name!r}; its only one is 'uart'")
     if kind == "pty":
         return Pty(argument)
     if kind == "tcp" and argument.isdigit() and int(argument) < 65536:

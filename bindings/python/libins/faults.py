@@ -6,20 +6,22 @@ is off, does not change what it does.
 
 import hashlib
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from libins import _run
-from libins.schema import Document, field
+from libins.schema import Document, Place, field
 
 PS_PER_S = 10**12
 NEVER_PS = 2**63 - 1
 TIME_MAX_S = 1e6
-LINES = {"to_board": "RXD", "to_host": "HOST RXD"}
+F2812_LINES = ("SCITXDA", "SCIRXDA", "SCITXDB", "SCIRXDB")
+LINES = {"to_board": "RXD", "to_host": "HOST RXD", **{line: line for line in F2812_LINES}}
 NETS = r"P[0-3]\.[0-7]|RXD|TXD|HOST RXD|(EOC|I/O CLOCK|DATA IN|DATA OUT|/CS)( [2-4])?"
 """Those that some board has; whether this one does is seen when it is built."""
+F2812_NETS = "SCI[TR]XD[AB]"
 WINDOW = {"from_s", "to_s"}
 INSTANT = {"at_s", "rate_per_s", "from_s", "to_s"}
 FLIP = ({"address", "bit"} | INSTANT, set[str]())
@@ -48,6 +50,11 @@ KINDS: Mapping[str, tuple[set[str], set[str]]] = {
     "code_flip": FLIP,
 }
 """Keys that a kind may have, and those that it must have, beside kind and on."""
+F2812_KINDS = ("crystal", "reset", "power", "wire_cut", "wire_short", "break")
+HOST_KINDS = ("baud",)
+NO_MEMORY = (
+    "firmware for the F2812 is compiled for this machine, so its memory has no faults; there is no TLC2543 beside it"
+)
 VALUES = ("value", "lsb", "delay_s", "volts", "ppm")
 """What is one number to the emulator."""
 
@@ -76,28 +83,50 @@ class Fault:
     net: str | None = field(None)
     to: str | None = field(None)
     line: str | None = field(None, choices=tuple(LINES))
+    station: str | None = field(None)
 
 
-def check(document: Document, faults: Sequence[Fault], ram_octets: int, place: tuple[str, ...] = ("fault",)) -> None:
-    """What one key alone cannot show. Raises UsageError."""
+@dataclass(frozen=True)
+class Target:
+    """What may break on a station."""
+
+    kinds: Collection[str]
+    nets: str
+    """As a pattern; a net may be shorted to another where `shorts` is true."""
+    example: str
+    shorts: bool = False
+    lines: tuple[str, ...] = ()
+    ram_octets: int = 0
+    why: str = ""
+    """Of a kind that it cannot have."""
+
+
+def acquisition(ram_octets: int) -> Target:
+    """An acquisition board with the host of its line."""
+    return Target(KINDS, NETS, "P1.4, EOC, TXD, HOST RXD ...", True, ("to_board", "to_host"), ram_octets)
+
+
+F2812 = Target(F2812_KINDS, F2812_NETS, ", ".join(F2812_LINES), lines=F2812_LINES, why=NO_MEMORY)
+HOST = Target(HOST_KINDS, "", "", why="a host has a baud that may be off")
+
+
+def check(document: Document, faults: Sequence[Fault], target: Target) -> None:
+    """What one key alone cannot show, of faults that are all the one board's. Raises UsageError."""
+    check_of(document, [(("fault", str(i)), fault) for i, fault in enumerate(faults)], target)
+
+
+def check_of(document: Document, faults: Sequence[tuple[Place, Fault]], target: Target) -> None:
+    """As check, of some of the faults, each with its place."""
     shorted: list[tuple[str, float, float]] = []
-    for i, fault in enumerate(faults):
-        key = (*place, str(i))
-        may, must = KINDS[fault.kind]
-        given = {name for name, value in vars(fault).items() if value is not None} - {"kind", "on"}
-        for name in sorted(must - given):
-            raise document.refuse((*key, name), f"is missing; {fault.kind} needs {', '.join(sorted(must))}")
-        for name in sorted(given - may - must):
-            known = ", ".join(sorted(may | must)) or "none"
-            raise document.refuse((*key, name), f"means nothing to {fault.kind}; its keys: {known}")
-        if "at_s" in may and ("at_s" in given) == ("rate_per_s" in given):
-            raise document.refuse(key, f"{fault.kind} needs either at_s or rate_per_s")
-        if "at_s" in given and given & WINDOW:
-            raise document.refuse((*key, "at_s"), "is one instant; from_s and to_s go with rate_per_s")
+    for key, fault in faults:
+        if fault.kind not in target.kinds:
+            found = f"found {fault.kind!r}, but {', '.join(target.kinds)} are possible here: {target.why}"
+            raise document.refuse((*key, "kind"), found)
+        _check_keys(document, key, fault)
         start, end = fault.from_s or 0.0, TIME_MAX_S if fault.to_s is None else fault.to_s
         if end <= start:
             raise document.refuse((*key, "to_s"), f"found {end}, but it must come after from_s = {start}")
-        _check_places(document, key, fault, ram_octets)
+        _check_places(document, key, fault, target)
         nets = {"wire_short": (fault.net, fault.to), "break": (LINES.get(fault.line or ""),)}.get(fault.kind, ())
         for net in nets:
             if net is None or net in ("gnd", "vcc") or not fault.on:
@@ -107,17 +136,34 @@ def check(document: Document, faults: Sequence[Fault], ram_octets: int, place: t
             shorted.append((net, start, end))
 
 
-def _check_places(document: Document, key: tuple[str, ...], fault: Fault, ram_octets: int) -> None:
-    for name, known in (("net", NETS), ("to", f"gnd|vcc|{NETS}")):
+def _check_keys(document: Document, key: Place, fault: Fault) -> None:
+    may, must = KINDS[fault.kind]
+    given = {name for name, value in vars(fault).items() if value is not None} - {"kind", "on", "station"}
+    for name in sorted(must - given):
+        raise document.refuse((*key, name), f"is missing; {fault.kind} needs {', '.join(sorted(must))}")
+    for name in sorted(given - may - must):
+        known = ", ".join(sorted(may | must)) or "none"
+        raise document.refuse((*key, name), f"means nothing to {fault.kind}; its keys: {known}")
+    if "at_s" in may and ("at_s" in given) == ("rate_per_s" in given):
+        raise document.refuse(key, f"{fault.kind} needs either at_s or rate_per_s")
+    if "at_s" in given and given & WINDOW:
+        raise document.refuse((*key, "at_s"), "is one instant; from_s and to_s go with rate_per_s")
+
+
+def _check_places(document: Document, key: Place, fault: Fault, target: Target) -> None:
+    rails = f"gnd|vcc|{target.nets}" if target.shorts else "gnd|vcc"
+    for name, known in (("net", target.nets), ("to", rails)):
         value = getattr(fault, name)
         if value is not None and not re.fullmatch(known, value):
-            rail = "gnd, vcc or " if name == "to" else ""
-            raise document.refuse(
-                (*key, name), f"found {value!r}, but {rail}a net is needed: P1.4, EOC, TXD, HOST RXD ..."
-            )
+            net = f"a net is needed: {target.example}"
+            needed = net if name == "net" else f"gnd, vcc or {net}" if target.shorts else "gnd or vcc is needed"
+            raise document.refuse((*key, name), f"found {value!r}, but {needed}")
+    if fault.line is not None and fault.line not in target.lines:
+        lines = ", ".join(map(repr, target.lines))
+        raise document.refuse((*key, "line"), f"found {fault.line!r}, but one of {lines} is needed")
     if fault.kind.endswith("_flip") and fault.kind != "adc_flip" and (fault.bit or 0) > 7:
         raise document.refuse((*key, "bit"), f"found {fault.bit}, but an octet's bits are 0 .. 7")
-    low, high = {"iram_flip": (0, ram_octets - 1), "sfr_flip": (0x80, 0xFF)}.get(fault.kind, (0, 0xFFFF))
+    low, high = {"iram_flip": (0, target.ram_octets - 1), "sfr_flip": (0x80, 0xFF)}.get(fault.kind, (0, 0xFFFF))
     if fault.address is not None and not low <= fault.address <= high:
         raise document.refuse((*key, "address"), f"found {fault.address:#x}, but it must lie in {low:#x} .. {high:#x}")
 
@@ -136,7 +182,8 @@ def built(fault: Fault, seed: int, place: int, now_s: float = 0.0) -> Any:
     made.rate_hz = fault.rate_per_s or 0.0
     if not fault.on or fault.rate_per_s == 0.0:
         made.from_ps = NEVER_PS
-    made.lasts_ps = ps(1e-3 if fault.for_s is None else fault.for_s)
+    if "for_s" in KINDS[fault.kind][0]:
+        made.lasts_ps = ps(1e-3 if fault.for_s is None else fault.for_s)
     made.probability = 1.0 if fault.probability is None else fault.probability
     made.value = float(next((v for v in map(vars(fault).get, VALUES) if v is not None), 0.0))
     made.drift = fault.drift_ppm_s or 0.0
@@ -156,7 +203,7 @@ def counted(hits: Sequence[tuple[str, int]]) -> dict[str, dict[str, int]]:
 class Faults:
     """What is broken on a Board."""
 
-    def __init__(self, do: Callable[..., Any], hits: Callable[[], list[tuple[str, int]]]) -> None:
+    def __init__(self, do: Callable[..., Any], hits: Callable[[], Sequence[tuple[str, int]]]) -> None:
         """do: a change from outside; hits: of the run."""
         self._do = do
         self._hits = hits
@@ -165,16 +212,16 @@ class Faults:
         """Break something; keys as in a [[fault]] table, from now on where none says when. Raises UsageError."""
         self._do("add_fault", {"kind": kind, **keys})
 
-    def hits(self) -> list[tuple[str, int]]:
+    def hits(self) -> Sequence[tuple[str, int]]:
         """Kind of each fault, the scenario's first, and how often it has acted."""
         return self._hits()
 
 
-def parsed(keys: Mapping[str, Any], now_s: float, ram_octets: int) -> Fault:
-    """A fault from keys of Python. Raises UsageError."""
+def parsed(keys: Mapping[str, Any], now_s: float, target_of: Callable[[Document, Fault], Target]) -> Fault:
+    """A fault from keys of Python; target_of: of whom. Raises UsageError."""
     document = Document(Path("Board.faults.add"), {"fault": dict(keys)})
     fault = document.parse(Fault, document.table["fault"], ("fault",))
     if "at_s" in KINDS[fault.kind][0] and fault.at_s is None and fault.rate_per_s is None:
         fault = replace(fault, at_s=now_s)
-    check(document, [fault], ram_octets)
+    check(document, [fault], target_of(document, fault))
     return fault

@@ -13,6 +13,7 @@ from libins.cdb import ADDRESS_END, Cdb
 from libins.cdb import load as load_cdb
 from libins.disasm import SFR
 from libins.errors import UsageError
+from libins.growing_file import GrowingFile
 from libins.scenario import Scenario
 
 
@@ -32,27 +33,6 @@ class Wanted:
     """Folders with the firmware's C files."""
     view_s: float | None = None
     """Instant around which the report's pictures are."""
-
-
-class _File:
-    """A text file that grows while the run goes on and gets its name when it is whole."""
-
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        self._part = path.with_name(path.name + ".part")
-        try:
-            self.text: TextIO = self._part.open("w", encoding="utf-8")
-        except OSError as error:
-            raise UsageError(f"{path}: cannot be written: {error.strerror}; choose another place") from error
-
-    def done(self) -> None:
-        self.text.close()
-        self._part.replace(self._path)
-
-    def drop(self) -> None:
-        if not self.text.closed:
-            self.text.close()
-            self._part.unlink()
 
 
 def _code(run: Any) -> Callable[[int], int]:
@@ -77,7 +57,7 @@ class Observation:
         if wanted.lcov and self._table:
             beside = [scenario.firmware.resolve().parent, self._table.path.resolve().parent]
             self._paths = coverage.sources(self._table, wanted.source or beside)
-        self._files: list[_File] = []
+        self._files: list[GrowingFile] = []
         self._dump: vcd.Dump | None = None
         self._trace: itrace.Writer | None = None
         self._observer: Any = None
@@ -124,7 +104,7 @@ class Observation:
             self._observer = _run.Observer(run, entries, watch, trace=w.itrace is not None)
 
     def _open(self, path: Path) -> TextIO:
-        self._files.append(_File(path))
+        self._files.append(GrowingFile(path))
         return self._files[-1].text
 
     def slice(self, run: Any, edges: Any) -> None:
@@ -154,7 +134,7 @@ class Observation:
             files = coverage.measure(self._table, _run.coverage(run), _code(run))
             observed["coverage"] = coverage.totals(files)
             if self._wanted.lcov:
-                lcov = _File(self._wanted.lcov)
+                lcov = GrowingFile(self._wanted.lcov)
                 lcov.text.write(coverage.lcov(files, self._paths))
                 lcov.done()
         return {"observed": observed} if observed else {}

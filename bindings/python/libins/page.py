@@ -6,12 +6,15 @@ from jinja2 import Environment, PackageLoader, select_autoescape
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from libins import pictures, profile, views
+from libins import pictures, profile, report, views
+from libins.net_scenario import NetScenario
 from libins.run import AXES, COLUMNS, Array, Result
-from libins.scenario import Scenario
+from libins.tables import Loaded
 
 PLOT_POINTS = 1500
 """More states than this are thinned for the plot (the figures above it count them all)."""
+LINES_SPAN_S = 0.02
+"""Of the picture of lines, before and after its instant."""
 
 
 def attitude_plot(states: Array) -> str:
@@ -39,19 +42,22 @@ def _markup(picture: str | None) -> Markup | None:
     return None if picture is None else Markup(picture)
 
 
-def html(scenario: Scenario, result: Result, view: views.View | None = None) -> str:
+def html(scenario: Loaded, result: Result, view: views.View | None = None) -> str:
     """One self-contained page. Holds no wall-clock figure."""
     environment = Environment(
         loader=PackageLoader("libins", "."), autoescape=select_autoescape(), trim_blocks=True, lstrip_blocks=True
     )
-    plot = _markup(attitude_plot(result.states)) if len(result.states) else None
+    scored = len(result.states) > 0 and list(result.columns) == list(COLUMNS)
+    plot = _markup(attitude_plot(result.states)) if scored else None
     return environment.get_template("report.html").render(
         summary=result.summary,
         plot=plot,
         logic=_markup(pictures.logic(view)) if view else None,
+        lines=_markup(pictures.lines(view, LINES_SPAN_S)) if view and isinstance(scenario, NetScenario) else None,
+        cpu=report.cpu_text(result.summary),
         scope=_markup(pictures.scope(view)) if view else None,
         profile=profile.text(result.summary["observed"]) if "coverage" in result.summary.get("observed", {}) else None,
         axes=AXES,
         scenario_text=scenario.text,
-        ages=np.round(result.states[:, COLUMNS["age_s"]] * 1e3, 3) if len(result.states) else None,
+        ages=np.round(result.states[:, COLUMNS["age_s"]] * 1e3, 3) if scored else None,
     )

@@ -55,6 +55,8 @@ def _traces(axes: Axes, view: View, nets: tuple[str, ...], begin: float, end: fl
 
 def logic(view: View) -> str | None:
     """The first scan after the view's instant and the exchange that follows; None when there is none."""
+    if "/CS" not in view.nets:
+        return None
     falls = _falls(view.nets["/CS"], view.at_ps)[:TRANSFERS]
     rises = [at for at, level in view.nets["/CS"] if level and falls and at > falls[0]][:TRANSFERS]
     if len(rises) < TRANSFERS:
@@ -76,12 +78,32 @@ def logic(view: View) -> str | None:
         last = max((f.end_ps for f in frames if not later or f.begin_ps < later[0]), default=rises[-1])
         end = last + MARGIN * (last - begin)
         _traces(exchange, view, LINES, begin, end, 1e9)
-        for row, net in enumerate(reversed(LINES)):
-            for frame in (f for f in view.frames[net] if begin < f.begin_ps and f.end_ps < end):
-                middle = ((frame.begin_ps + frame.end_ps) / 2 - begin) / 1e9
-                exchange.text(middle, row + HIGH + 0.05, str(frame), ha="center", color="tab:red", fontsize=8)
+        _octets(exchange, view, LINES, begin, end)
         exchange.set_xlabel("milliseconds; red: octets")
         return svg(figure)
+
+
+def lines(view: View, span_s: float) -> str | None:
+    """All nets around the view's instant, and the octets on them; None when nothing happens."""
+    begin, end = view.at_ps - span_s * PS_PER_S, view.at_ps + span_s * PS_PER_S
+    nets = tuple(view.nets)
+    if not any(begin < at < end for net in nets for at, _ in view.nets[net][1:]):
+        return None
+    with matplotlib.rc_context({"font.size": 9}):
+        figure = Figure(figsize=(9, 0.8 + 0.6 * len(nets)), layout="constrained")
+        axes = figure.subplots()
+        _traces(axes, view, nets, begin, end, 1e9)
+        _octets(axes, view, nets, begin, end)
+        axes.set_xlabel(f"milliseconds from {begin / PS_PER_S:.6f} s; red: octets")
+        return svg(figure)
+
+
+def _octets(axes: Axes, view: View, nets: tuple[str, ...], begin: float, end: float) -> None:
+    """On traces with time in milliseconds from the begin."""
+    for row, net in enumerate(reversed(nets)):
+        for frame in (f for f in view.frames[net] if begin < f.begin_ps and f.end_ps < end):
+            middle = ((frame.begin_ps + frame.end_ps) / 2 - begin) / 1e9
+            axes.text(middle, row + HIGH + 0.05, str(frame), ha="center", color="tab:red", fontsize=8)
 
 
 def scope(view: View) -> str | None:

@@ -12,19 +12,22 @@ import inspect
 import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import pytest
 
 from libins import artifacts
+from libins.bench import Bench
 from libins.board import Board, Snapshot
 from libins.errors import UsageError
+from libins.f2812_board import F2812Board
 
 BOOT_S = 1.0
 KEEP_MS = "20"
-BOARDS = pytest.StashKey[list[Board]]()
+BOARDS = pytest.StashKey[list[Bench]]()
 BOOTS = pytest.StashKey[dict[str, Snapshot]]()
 
+B = TypeVar("B", bound=Bench)
 Boot = bytes | re.Pattern[bytes] | Callable[[Board], object]
 
 
@@ -49,20 +52,23 @@ def pytest_configure(config: pytest.Config) -> None:
         "of `board` and `make_board`; keys as in a scenario file. boot: octets to wait for after power-on, or a call "
         "of the board, done once a session. strict: a report about the firmware fails the test.",
     )
+    config.addinivalue_line(
+        "markers",
+        "f2812_board(scenario=None, *, firmware=None, boot=None, boot_within_s=1.0, strict=False, **keys): of "
+        "`f2812_board` and `make_f2812_board`, as `board`; boot is done for each test, since there are no snapshots.",
+    )
     config.stash[BOOTS] = {}
 
 
-@pytest.fixture
-def make_board(request: pytest.FixtureRequest) -> Iterator[Callable[..., Board]]:
-    """Makes boards: the arguments of the marker `board`, and its as defaults."""
-    made: list[Board] = []
-    strict: list[Board] = []
-    request.node.stash[BOARDS] = made
+def _maker(request: pytest.FixtureRequest, marker: str, booted: Callable[..., B]) -> Iterator[Callable[..., B]]:
+    """Makes boards: the arguments of a marker, and its as defaults."""
+    made: list[Bench] = request.node.stash.setdefault(BOARDS, [])
+    strict: list[Bench] = []
 
-    def make(scenario: str | Path | None = None, **keys: Any) -> Board:
-        keys = _defaults(request, scenario) | keys
+    def make(scenario: str | Path | None = None, **keys: Any) -> B:
+        keys = _defaults(request, marker, scenario) | keys
         is_strict = keys.pop("strict", False)
-        board = _booted(request, keys)
+        board = booted(request, keys)
         made.append(board)
         strict.extend([board] if is_strict else [])
         return board
@@ -74,16 +80,34 @@ def make_board(request: pytest.FixtureRequest) -> Iterator[Callable[..., Board]]
 
 
 @pytest.fixture
+def make_board(request: pytest.FixtureRequest) -> Iterator[Callable[..., Board]]:
+    """Makes boards: the arguments of the marker `board`, and its as defaults."""
+    yield from _maker(request, "board", _booted)
+
+
+@pytest.fixture
 def board(make_board: Callable[..., Board]) -> Board:
     """The board of the marker, or of the options."""
     return make_board()
 
 
-def _defaults(request: pytest.FixtureRequest, scenario: str | Path | None) -> dict[str, Any]:
+@pytest.fixture
+def make_f2812_board(request: pytest.FixtureRequest) -> Iterator[Callable[..., F2812Board]]:
+    """Makes boards with an F2812: the arguments of the marker `f2812_board`, and its as defaults."""
+    yield from _maker(request, "f2812_board", _powered)
+
+
+@pytest.fixture
+def f2812_board(make_f2812_board: Callable[..., F2812Board]) -> F2812Board:
+    """The board of the marker, or of the options."""
+    return make_f2812_board()
+
+
+def _defaults(request: pytest.FixtureRequest, name: str, scenario: str | Path | None) -> dict[str, Any]:
     """The marker's arguments, then the options; files beside the test come before those of the root directory."""
-    marker = request.node.get_closest_marker("board")
+    marker = request.node.get_closest_marker(name)
     if marker is not None and len(marker.args) > 1:
-        raise pytest.UsageError(f"board{marker.args}: one argument, the scenario, has no name")
+        raise pytest.UsageError(f"{name}{marker.args}: one argument, the scenario, has no name")
     keys = dict(marker.kwargs) if marker is not None else {}
     if marker is not None and marker.args:
         keys["scenario"] = marker.args[0]
@@ -139,6 +163,23 @@ def _booted(request: pytest.FixtureRequest, keys: dict[str, Any]) -> Board:
     return board
 
 
+def _powered(request: pytest.FixtureRequest, keys: dict[str, Any]) -> F2812Board:
+    """From power-on, and booted each time: there are no snapshots."""
+    boot: Any = keys.pop("boot", None)
+    within_s = keys.pop("boot_within_s", BOOT_S)
+    try:
+        board = F2812Board(keys.pop("scenario", None), **keys)
+    except UsageError as error:
+        raise pytest.UsageError(str(error)) from error
+    request.node.stash[BOARDS].append(board)  # a boot that fails has artifacts too
+    if isinstance(boot, (bytes, re.Pattern)):
+        board.expect(boot, within_s=within_s)
+    elif boot is not None:
+        boot(board)
+    request.node.stash[BOARDS].remove(board)
+    return board
+
+
 def _stamp(firmware: str | None) -> tuple[str | None, int]:
     return firmware, Path(firmware).stat().st_mtime_ns if firmware and Path(firmware).exists() else 0
 
@@ -151,23 +192,27 @@ def _boot_name(boot: Boot) -> object:
 def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> Any:
     """Where each board of a failed test is, what it last sent, and its artifacts."""
     report: pytest.TestReport = yield
+    boards: list[Bench] = item.stash.get(BOARDS, [])
     if report.failed:
-        boards: list[Board] = item.stash.get(BOARDS, [])
         for number, board in enumerate(boards, start=1):
             report.sections.append((f"board {number} at {report.when}", _section(item, board, number)))
+    if report.when == "teardown":
+        for board in boards:
+            board.close()
     return report
 
 
-def _section(item: pytest.Item, board: Board, number: int) -> str:
+def _section(item: pytest.Item, board: Bench, number: int) -> str:
     lines = [board.describe()]
     option, ini = item.config.getoption("--board-artifacts"), item.config.getini("board_artifacts")
     if option or ini:
         folder = Path(option) if option else item.config.rootpath / ini
         folder = folder / (artifacts.folder_of(item.nodeid) + (f".{number}" if number > 1 else ""))
         try:
-            lines += [f"artifact {path}" for path in artifacts.write(board, folder)]
+            keep_s = float(item.config.getini("board_keep_ms")) * 1e-3
+            lines += [f"artifact {path}" for path in artifacts.write(board, folder, keep_s)]
         except (UsageError, OSError) as error:
             lines.append(f"no artifacts: {error}")
     else:
-        lines.append("--board-artifacts DIR keeps a snapshot before the failure, the inputs since and the trace")
+        lines.append("--board-artifacts DIR keeps what brings the board there again, and the trace")
     return "\n".join(lines)

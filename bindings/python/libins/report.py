@@ -1,22 +1,21 @@
 """What a run has to show as text: a few lines for a terminal, and CSV. The same bytes for the same run."""
 
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
-from libins import _run
 from libins.run import AXES, Array
 
 
-def trace_lines(edges: Array) -> Iterable[str]:
+def trace_lines(wires: Sequence[str], edges: Array) -> Iterable[str]:
     """CSV lines of a block of edges."""
-    return (f"{at},{_run.WIRES[wire]},{level}\n" for at, wire, level in edges.tolist())
+    return (f"{at},{wires[wire]},{level}\n" for at, wire, level in edges.tolist())
 
 
-def states_csv(states: Array) -> str:
+def states_csv(columns: Sequence[str], states: Array) -> str:
     """All states, one line each, columns named with their unit."""
     out = io.StringIO()
-    out.write(",".join(_run.STATE_COLUMNS) + "\n")
+    out.write(",".join(columns) + "\n")
     for row in states.tolist():
         out.write(",".join(repr(value) for value in row) + "\n")
     return out.getvalue()
@@ -24,7 +23,19 @@ def states_csv(states: Array) -> str:
 
 def report_line(report: dict[str, Any]) -> str:
     """What the board had to say about the firmware, how often and since when."""
-    return f"{report['text']} ({report['detail']:#x}), {report['count']} times, first at {report['first_s']:.6f} s"
+    board = f"{report['board']}: " if "board" in report else ""
+    times = f"{report['count']} times, first at {report['first_s']:.6f} s"
+    return f"{board}{report['text']} ({report['detail']:#x}), {times}"
+
+
+def cpu_text(summary: dict[str, Any]) -> str:
+    """What the processors did."""
+    if "boards" in summary:
+        return "; ".join(f"{name} {cpu_text(board)}" for name, board in summary["boards"].items())
+    cpu = summary["cpu"]
+    if "instructions" in cpu:
+        return f"{cpu['instructions']} instructions, {cpu['cycles']} machine cycles"
+    return f"{cpu['accesses']} register accesses, {cpu['interrupts']} interrupts"
 
 
 def text(summary: dict[str, Any]) -> str:
@@ -33,10 +44,13 @@ def text(summary: dict[str, Any]) -> str:
     lines = [
         f"{summary['scenario']}: {summary['firmware']}, seed {summary['seed']}, {summary['sim_s']:g} s simulated "
         f"in {summary['wall_s']:.2f} s ({speed:.0f} times real time)",
-        f"cpu       {summary['cpu']['instructions']} instructions, {summary['cpu']['cycles']} machine cycles",
+        f"cpu       {cpu_text(summary)}",
     ]
     if (program := summary.get("program")) is not None:
         lines.append(f"program   {program['ended'] or 'did not end'}, exit code {program['exit_code']}")
+    for name, host in summary.get("hosts", {}).items():
+        counted = f"{host['octets_sent']} octets sent, {host['octets_received']} received"
+        lines.append(f"{name:9} {counted}, {host['framing_errors']} framing errors")
     if (link := summary["link"]) is not None:
         corrupt = link["corrupt_accepted"]
         lines.append(

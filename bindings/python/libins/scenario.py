@@ -5,7 +5,6 @@ docs/scenarios.md lists every key.
 """
 
 import copy
-import csv
 import itertools
 import math
 import re
@@ -17,172 +16,68 @@ from typing import Any
 
 import numpy as np
 
-from libins import faults, hexfile
+from libins import faults, hexfile, net_scenario
 from libins.errors import UsageError
 from libins.schema import Document, field
+from libins.tables import (
+    ACQUISITION,
+    FLASH_OCTETS,
+    PACKAGE,
+    RAM_OCTETS,
+    Acquisition,
+    Common,
+    Link,
+    Loaded,
+    Nav,
+    check_acquisition,
+    check_common,
+    check_cuts,
+    check_motion,
+    check_nav,
+    is_image,
+    read_motion,
+    read_volts,
+    resolve,
+    settle,
+)
 
-PACKAGE = Path(__file__).absolute().parent
-"""In the build tree the modules are links: what was built lies beside the links."""
-FLASH_OCTETS = {"at89s51": 4096, "at89s52": 8192}
-RAM_OCTETS = {"at89s51": 128, "at89s52": 256}
 BARE: dict[str, Any] = {"schema": 1, "board": "8051_tlc2543", "stop_s": 60.0, "motion": {"kind": "still"}}
 """The board alone, without a scenario file: gyros at rest, and nobody at the other end of the line."""
-IMAGES = (".ihx", ".hex", ".ihex")
-BOARDS = ("8051_tlc2543", "8051_tlc2543_six")
-MOTION_COLUMNS = ("t_s", "yaw_rad", "pitch_rad", "roll_rad")
-VOLTS_COLUMNS = ("t_s", "volts")
-VARYING = ("matrix", "campaign")
-"""Tables that say which keys are varied."""
+ROOMS = ("scenarios", "scenarios_f2812")
+"""Folders of the package with scenarios."""
 MATRIX_LIMIT = 10_000
 """Combinations of one scenario; more are a campaign's."""
-FORMS = ("one", "hist1", "hist2_fit", "hist2_opt", "hist3_fit", "hist3_opt")
 
 
-@dataclass(frozen=True)
-class Sinusoid:
-    """angle(t) = offset + amplitude * sin(2 pi frequency t + phase)."""
+@dataclass(frozen=True, kw_only=True)
+class Tables(Acquisition, Common):
+    """A scenario file of the acquisition board, as written."""
 
-    offset_rad: float = field(0.0)
-    amplitude_rad: float = field(0.0)
-    frequency_hz: float = field(0.0, minimum=0.0, maximum=1000.0)
-    phase_rad: float = field(0.0)
-
-
-@dataclass(frozen=True)
-class Motion:
-    """The true motion. `kind` says which of the other keys count."""
-
-    kind: str = field(choices=("still", "constant_rate", "sinusoids", "coning", "csv"))
-    ramp_s: float = field(0.0, minimum=0.0)
-    yaw: Sinusoid = field(Sinusoid)
-    pitch: Sinusoid = field(Sinusoid)
-    roll: Sinusoid = field(Sinusoid)
-    rate_rad_s: list[float] = field([0.0, 0.0, 0.0])
-    half_angle_rad: float = field(0.0, minimum=0.0, maximum=math.pi / 2)
-    frequency_hz: float = field(0.0, minimum=0.0, maximum=1000.0)
-    csv: str = field("")
-
-
-@dataclass(frozen=True)
-class Gyro:
-    """The three rate gyros and their amplifiers; keys left out keep the preset's values."""
-
-    preset: str = field("ideal", choices=("ideal", "cg_l53"))
-    bandwidth_hz: float | None = field(None, minimum=0.0)
-    noise_rad_s_rthz: float | None = field(None, minimum=0.0)
-    bias_rad_s: list[float] | None = field(None)
-    drift_rad_s2: list[float] | None = field(None)
-
-
-@dataclass(frozen=True)
-class Analog:
-    """What is on an input instead of a gyro: volts + amplitude_v sin(2 pi frequency_hz t + phase_rad) + the file."""
-
-    channel: int = field(minimum=0, maximum=255)
-    volts: float = field(0.0)
-    amplitude_v: float = field(0.0)
-    frequency_hz: float = field(0.0, minimum=0.0, maximum=1e5)
-    phase_rad: float = field(0.0)
-    csv: str = field("")
-
-
-@dataclass(frozen=True)
-class Link:
-    """The serial line between the board and its host, and what goes wrong on it."""
-
-    baud: float = field(9600.0, minimum=50.0, maximum=4e6)
-    bit_error: float = field(0.0, minimum=0.0, maximum=0.5)
-    octet_loss: float = field(0.0, minimum=0.0, maximum=0.5)
-    cuts_s: list[list[float]] = field([])
-
-
-@dataclass(frozen=True)
-class Nav:
-    """The receiver and navigator at the host's end. The period, block length and sequence number are the firmware's."""
-
-    period_s: float = field(above=0.0, maximum=10.0)
-    block_len: int = field(6, minimum=6, maximum=32)
-    sequence: bool = field(True)
-    form: str = field("hist2_opt", choices=FORMS)
-    rate_order: int = field(4, minimum=2, maximum=5)
-    skew_s: list[float] = field([0.0, 0.0, 0.0], minimum=0.0, maximum=1.0)
-    start: str = field("truth", choices=("truth", "level"))
-
-
-@dataclass(frozen=True)
-class Expect:
-    """One check on the summary: a dotted name in it, and a bound."""
-
-    value: str
-    at_most: float | None = field(None)
-    at_least: float | None = field(None)
-
-
-@dataclass(frozen=True)
-class Tables:
-    """A scenario file, as written."""
-
-    firmware: str
-    motion: Motion
-    schema: int = field(choices=(1,))
-    board: str = field(choices=BOARDS)
-    stop_s: float = field(above=0.0, maximum=1e6)
-    part: str = field("at89s51", choices=tuple(FLASH_OCTETS))
-    code_octets: int = field(0, minimum=0, maximum=65536)
-    xdata_octets: int = field(0, minimum=0, maximum=65536)
-    clock_hz: int = field(11_059_200, minimum=1_000_000, maximum=33_000_000)
-    seed: int = field(1, minimum=0, maximum=2**63 - 1)
-    stop_samples: int | None = field(None, minimum=1)
-    gyro: Gyro = field(Gyro)
-    analog: list[Analog] = field([])
+    board: str = field(choices=ACQUISITION)
     link: Link = field(Link)
     nav: Nav | None = field(None)
-    fault: list[faults.Fault] = field([])
-    expect: list[Expect] = field([])
 
 
 @dataclass(frozen=True)
-class Scenario:
-    """A scenario with its files read: everything a run needs."""
+class Scenario(Loaded):
+    """Of the acquisition board."""
 
-    path: Path
     tables: Tables
     image: list[tuple[int, bytes]]
-    firmware: Path
-    csv: np.ndarray[Any, Any] | None
-    combination: Mapping[str, Any]
-    """What the matrix sets, by dotted name."""
-    table: Mapping[str, Any]
-    """As written, with what replaced a key."""
     volts: Mapping[int, np.ndarray[Any, Any]]
     """Files of [[analog]] tables, by their place."""
 
-    def tables_read(self) -> list[np.ndarray[Any, Any]]:
-        """Every CSV file that the scenario names."""
-        return [*([] if self.csv is None else [self.csv]), *self.volts.values()]
-
-    @property
-    def text(self) -> str:
-        """The file's, for a report; empty for an image alone."""
-        return "" if is_image(self.path) else self.path.read_text(encoding="utf-8")
-
-    @property
-    def name(self) -> str:
-        """The file's, with the combination in brackets: default[link.baud=9600, seed=2]."""
-        inside = ", ".join(f"{key}={value}" for key, value in self.combination.items())
-        return self.path.stem + (f"[{inside}]" if inside else "")
-
-
-def is_image(path: Path) -> bool:
-    """Whether it is an Intel HEX file by its name."""
-    return path.suffix.lower() in IMAGES
+    def contents(self) -> list[object]:
+        """Of the files that the scenario names."""
+        return [*super().contents(), self.image, *(table.tolist() for table in self.volts.values())]
 
 
 def find(name: str) -> Path:
     """A scenario by path, or by the name of one that comes with the package ("default")."""
     path = Path(name)
-    built_in = PACKAGE / "scenarios" / f"{path.stem}.toml"
-    return built_in if not path.exists() and path.parent == Path() and built_in.exists() else path
+    if path.exists() or path.parent != Path():
+        return path
+    return next((found for found in (PACKAGE / room / f"{path.stem}.toml" for room in ROOMS) if found.exists()), path)
 
 
 def load(
@@ -191,53 +86,73 @@ def load(
     settings: Mapping[str, Any] | None = None,
     combination: Mapping[str, Any] | None = None,
     origin: str = "matrix",
-) -> Scenario:
+) -> Loaded:
     """Read and check a scenario and the files it names. Raises UsageError.
 
-    An Intel HEX image in the place of a scenario runs on a bare board. settings and combination replace keys by dotted
-    name: from the command line, and from the table called origin.
+    A program in the place of a scenario runs on a bare board. settings and combination replace keys by dotted name:
+    from the command line, and from the table called origin.
     """
-    if is_image(path):
-        document, firmware = Document(path, copy.deepcopy(BARE)), firmware or path
-    else:
-        document = Document(path)
-    document.override(settings or {}, "--set")
-    return read(document, firmware, combination, origin)
-
-
-def read(
-    document: Document,
-    firmware: Path | None,
-    combination: Mapping[str, Any] | None = None,
-    origin: str = "matrix",
-) -> Scenario:
-    """A scenario from its document. Raises UsageError."""
+    document = _document(path, settings)
     document.override(combination or {}, origin)
-    for varying in VARYING:
-        document.table.pop(varying, None)
+    if net_scenario.is_net(document):
+        return net_scenario.read(document, _image(path, firmware), combination or {})
+    return read(document, _image(path, firmware), combination or {})
+
+
+def load_board(path: Path, firmware: Path | None = None, settings: Mapping[str, Any] | None = None) -> Scenario:
+    """As load, of the acquisition board alone. Raises UsageError."""
+    return read(_document(path, settings), _image(path, firmware))
+
+
+def schema_of(document: Document) -> type[Common]:
+    """The dataclass of the document's tables."""
+    return net_scenario.schema_of(document) if net_scenario.is_net(document) else Tables
+
+
+def _document(path: Path, settings: Mapping[str, Any] | None) -> Document:
+    document = Document(path, copy.deepcopy(bare(path)) if is_image(path) else None)
+    document.override(settings or {}, "--set")
+    return document
+
+
+def bare(path: Path) -> dict[str, Any]:
+    """The scenario of a program alone."""
+    return net_scenario.BARE if path.suffix.lower() == net_scenario.PROGRAM else BARE
+
+
+def _image(path: Path, firmware: Path | None) -> Path | None:
+    return firmware or (path if is_image(path) else None)
+
+
+def read(document: Document, firmware: Path | None = None, combination: Mapping[str, Any] | None = None) -> Scenario:
+    """A scenario of the acquisition board from its document. Raises UsageError."""
+    if net_scenario.is_net(document):
+        raise document.refuse(("board",), net_scenario.NO_STATE)
+    settle(document)
     if firmware is not None:
         document.table.setdefault("firmware", firmware.name)
     tables = document.parse(Tables, document.table)
-    _check(document, tables)
-    image_path = firmware or _resolve(document, ("firmware",), tables.firmware, PACKAGE / "firmware")
-    table = None
-    if tables.motion.kind == "csv":
-        table = read_csv(_resolve(document, ("motion", "csv"), tables.motion.csv, None), MOTION_COLUMNS, 4)
-    volts = {
-        i: read_csv(_resolve(document, ("analog", str(i), "csv"), signal.csv, None), VOLTS_COLUMNS, 2)
-        for i, signal in enumerate(tables.analog)
-        if signal.csv
-    }
+    check_motion(document, tables.motion)
+    check_acquisition(document, (), tables)
+    if tables.nav is not None:
+        check_nav(document, ("nav",), tables.nav)
+    elif tables.stop_samples is not None:
+        raise document.refuse(("stop_samples",), "counts the navigator's samples, but there is no [nav] table")
+    faults.check(document, tables.fault, faults.acquisition(RAM_OCTETS[tables.part]))
+    check_cuts(document, ("link",), tables.link.cuts_s)
+    check_common(document, tables)
+    image_path = firmware or resolve(document, ("firmware",), tables.firmware, PACKAGE / "firmware")
+    csv, volts = read_motion(document, tables.motion), read_volts(document, (), tables)
     image = hexfile.load(image_path, tables.code_octets or FLASH_OCTETS[tables.part])
-    return Scenario(document.path, tables, image, image_path, table, combination or {}, document.table, volts)
+    return Scenario(document.path, tables, image_path, csv, combination or {}, document.table, image, volts)
 
 
-def load_all(path: Path, firmware: Sequence[Path] = (), settings: Mapping[str, Any] | None = None) -> list[Scenario]:
+def load_all(path: Path, firmware: Sequence[Path] = (), settings: Mapping[str, Any] | None = None) -> list[Loaded]:
     """Every combination of the [matrix] and of the images, all checked before any runs. Raises UsageError.
 
     A key that settings or firmware give is no longer varied.
     """
-    document = Document(path, BARE if is_image(path) else None)
+    document = Document(path, bare(path) if is_image(path) else None)
     given = {*(settings or {}), *(("firmware",) if firmware else ())}
     axes = {key: v for key, v in _axes(document, (), document.table.get("matrix", {})) if key not in given}
     count = math.prod(map(len, axes.values())) * max(1, len(firmware))
@@ -261,6 +176,14 @@ def _axes(document: Document, key: tuple[str, ...], table: Any) -> Iterator[tupl
         yield ".".join(key), table
 
 
+def switch(text: str) -> tuple[str, Any]:
+    """NAME=VALUE of the command line: a switch of the one F2812. Raises UsageError."""
+    name, equals, value = text.partition("=")
+    if not equals or not re.fullmatch(r"\w+", name) or not value:
+        raise UsageError(f"--switch {text}: NAME=VALUE is needed, for example sci_rxffovf=newest")
+    return f"switches.{name}", value
+
+
 def setting(text: str) -> tuple[str, Any]:
     """KEY=VALUE of the command line; the value as TOML would read it, or else a string. Raises UsageError."""
     key, equals, value = text.partition("=")
@@ -270,71 +193,3 @@ def setting(text: str) -> tuple[str, Any]:
         return key, tomllib.loads(f"value = {value}")["value"]
     except tomllib.TOMLDecodeError:
         return key, value
-
-
-def _resolve(document: Document, key: tuple[str, ...], name: str, built_in: Path | None) -> Path:
-    beside = document.path.parent / name
-    if name and beside.is_file():
-        return beside
-    if name and built_in is not None and (built_in / name).is_file():
-        return built_in / name
-    places = f"{document.path.parent}" + (f" and {built_in}" if built_in else "")
-    raise document.refuse(key, f"found {name!r}, but there is no such file in {places}")
-
-
-def _check(document: Document, tables: Tables) -> None:
-    """What one key alone cannot show."""
-    if 0 < tables.code_octets < FLASH_OCTETS[tables.part]:
-        raise document.refuse(("code_octets",), f"found {tables.code_octets}, less than the flash of the {tables.part}")
-    motion = tables.motion
-    for key, length in (("rate_rad_s", 3),):
-        if len(getattr(motion, key)) != length:
-            raise document.refuse(("motion", key), f"found {getattr(motion, key)!r}, but {length} numbers are needed")
-    for key in ("bias_rad_s", "drift_rad_s2"):
-        if (value := getattr(tables.gyro, key)) is not None and len(value) != 3:
-            raise document.refuse(("gyro", key), f"found {value!r}, but 3 numbers (X, Y, Z) are needed")
-    if tables.nav is not None:
-        if len(tables.nav.skew_s) != 3 or max(tables.nav.skew_s) >= tables.nav.period_s:
-            raise document.refuse(("nav", "skew_s"), "three delays (X, Y, Z) below period_s are needed")
-    elif tables.stop_samples is not None:
-        raise document.refuse(("stop_samples",), "counts the navigator's samples, but there is no [nav] table")
-    faults.check(document, tables.fault, RAM_OCTETS[tables.part])
-    channels = [signal.channel for signal in tables.analog]
-    for i, channel in enumerate(channels):
-        if channel in channels[:i]:
-            raise document.refuse(("analog", str(i), "channel"), f"found {channel} again; one table a channel")
-    end = 0.0
-    for i, cut in enumerate(tables.link.cuts_s):
-        if len(cut) != 2 or not end <= cut[0] < cut[1]:
-            needed = f"[from, to] with {end} <= from < to"
-            raise document.refuse(("link", "cuts_s", str(i)), f"found {cut!r}, but {needed} is needed")
-        end = cut[1]
-    for i, expect in enumerate(tables.expect):
-        if expect.at_most is None and expect.at_least is None:
-            raise document.refuse(("expect", str(i)), "needs at_most or at_least")
-
-
-def read_csv(path: Path, columns: Sequence[str], least: int) -> np.ndarray[Any, Any]:
-    """A table of numbers by time, with that header and at least so many rows. Raises UsageError with the line."""
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            rows = list(csv.reader(file))
-    except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(f"{path}: cannot be read: {error}") from error
-    if not rows or [name.strip() for name in rows[0]] != list(columns):
-        found = ",".join(rows[0]) if rows else "nothing"
-        raise UsageError(f"{path}:1: found {found!r}, but the header must be {','.join(columns)}")
-    values: list[list[float]] = []
-    for number, row in enumerate(rows[1:], start=2):
-        try:
-            numbers = [float(cell) for cell in row]
-        except ValueError as error:
-            raise UsageError(f"{path}:{number}: {error}") from error
-        if len(numbers) != len(columns) or not all(map(math.isfinite, numbers)):
-            raise UsageError(f"{path}:{number}: found {','.join(row)!r}, but {len(columns)} finite numbers are needed")
-        if values and numbers[0] <= values[-1][0]:
-            raise UsageError(f"{path}:{number}: t_s = {numbers[0]} does not come after {values[-1][0]}")
-        values.append(numbers)
-    if len(values) < least:
-        raise UsageError(f"{path}: {len(values)} rows, but at least {least} are needed")
-    return np.array(values)

@@ -16,6 +16,8 @@ from typing import Any, TypeVar
 from libins.errors import UsageError
 
 T = TypeVar("T")
+Place = tuple[str, ...]
+"""Of a key or table in a document: ("expect", "0", "at_most")."""
 
 
 def field(default: Any = dataclasses.MISSING, **limits: Any) -> Any:
@@ -32,16 +34,31 @@ def _hints(schema: Any) -> dict[str, Any]:
     return typing.get_type_hints(schema)
 
 
+def parts(hint: Any) -> list[Any]:
+    """What a type may be, None left out."""
+    is_union = isinstance(hint, types.UnionType)
+    return [part for part in typing.get_args(hint) if part is not types.NoneType] if is_union else [hint]
+
+
 def kind(schema: Any, key: Sequence[str]) -> Any:
     """The type of the scalar of that name, array places as numbers ("expect", "0", "at_most"); None: no such scalar."""
     hint: Any = schema
     for name in (*key, ""):
-        if isinstance(hint, types.UnionType):
-            hint = next(part for part in typing.get_args(hint) if part is not types.NoneType)
+        choices = parts(hint)
+        hint = next(
+            (
+                part
+                for part in choices
+                if isinstance(part, type) and dataclasses.is_dataclass(part) and name in _hints(part)
+            ),
+            choices[0],
+        )
         if dataclasses.is_dataclass(hint):
             hint = _hints(hint).get(name)  # type: ignore[arg-type]
         elif typing.get_origin(hint) is list and name.isdigit():
             (hint,) = typing.get_args(hint)
+        elif typing.get_origin(hint) is dict and name:
+            _, hint = typing.get_args(hint)
         elif name:
             return None
     return hint
@@ -145,16 +162,38 @@ class Document:
         return schema(**values)
 
     def _value(self, hint: Any, value: Any, key: tuple[str, ...], limits: Any) -> Any:
-        if isinstance(hint, types.UnionType):
-            hint = next(part for part in typing.get_args(hint) if part is not types.NoneType)
+        hint = self._chosen(parts(hint), value, key)
         if dataclasses.is_dataclass(hint):
             return self.parse(hint, value, key)  # type: ignore[arg-type]
+        if typing.get_origin(hint) is dict:
+            if not isinstance(value, dict):
+                raise self.refuse(key, f"found {value!r}, but a table is needed here")
+            _, item = typing.get_args(hint)
+            return {name: self._value(item, entry, (*key, name), limits) for name, entry in value.items()}
         if typing.get_origin(hint) is list:
             if not isinstance(value, list):
                 raise self.refuse(key, f"found {value!r}, but an array is needed")
             (item,) = typing.get_args(hint)
             return [self._value(item, entry, (*key, str(i)), limits) for i, entry in enumerate(value)]
         return self._scalar(hint, value, key, limits)
+
+    def _chosen(self, choices: list[Any], value: Any, key: tuple[str, ...]) -> Any:
+        """Of several dataclasses, the one whose `kind` takes the value's."""
+        if len(choices) == 1:
+            return choices[0]
+        if not isinstance(value, dict):
+            raise self.refuse(key, f"found {value!r}, but a table is needed here")
+        kinds = {
+            name: choice
+            for choice in choices
+            for f in dataclasses.fields(choice)
+            if f.name == "kind"
+            for name in f.metadata["choices"]
+        }
+        if value.get("kind") not in kinds:
+            found = f"found {value['kind']!r}, but" if "kind" in value else "is missing;"
+            raise self.refuse((*key, "kind"), f"{found} one of {', '.join(map(repr, kinds))} is needed")
+        return kinds[value["kind"]]
 
     def _scalar(self, hint: type, value: Any, key: tuple[str, ...], limits: Any) -> Any:
         wanted = {float: "a number", int: "an integer", bool: "true or false", str: "a string"}[hint]

@@ -6,19 +6,32 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from libins.errors import UsageError
+from libins.net_scenario import NetScenario
 from libins.scenario import Scenario
+from libins.tables import Loaded
 
 if TYPE_CHECKING:
-    from libins.observe import Observation
+    from libins.run import Watch
 
 ANALOG_US = 1000.0
+OF_8051 = ("itrace", "lcov", "profile", "cdb")
+"""Options that look at 8051 code."""
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
     """To `ins run`."""
     group = command.add_argument_group("looking at the firmware", "docs/seeing.md; * needs SDCC's .cdb or .rst")
     group.add_argument("--vcd", type=Path, metavar="F", help="write pins, nets, volts, octets and interrupts (GTKWave)")
-    group.add_argument("--vcd-sfr", action="append", default=[], metavar="NAME", help="with --vcd: an SFR, e.g. TCON")
+    group.add_argument(
+        "--vcd-sfr",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="with --vcd: a register, e.g. TCON; of an F2812 SCIFFRXA, as the firmware reads and writes it",
+    )
+    group.add_argument(
+        "--access-log", type=Path, metavar="F.jsonl", help="write every register access and interrupt of an F2812"
+    )
     group.add_argument(
         "--vcd-analog-us",
         type=float,
@@ -38,18 +51,25 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
 
 
-def observation(loaded: Scenario, options: argparse.Namespace, place: Callable[[Path], Path]) -> "Observation | None":
+def observation(loaded: Loaded, options: argparse.Namespace, place: Callable[[Path], Path]) -> "Watch | None":
     """What was asked for, or None; `place` gives a file its name in this run. Raises UsageError."""
-    if not (options.vcd or options.itrace or options.lcov or options.profile or options.report):
-        return None
     stop_s = loaded.tables.stop_s
     if options.report_at is not None and not 0 <= options.report_at <= stop_s:
         raise UsageError(f"--report-at {options.report_at:g}: must lie in 0 .. {stop_s:g}, the simulated seconds")
-    from libins import observe  # pyvcd only where it is needed
+    view_s = (stop_s / 2 if options.report_at is None else options.report_at) if options.report else None
 
     def placed(path: Path | None) -> Path | None:
         return None if path is None else place(path)
 
+    if isinstance(loaded, NetScenario):
+        return _of_net(options, placed, view_s)
+    if options.access_log is not None:
+        raise UsageError("--access-log: needs a board with an F2812; of the 8051 --itrace shows every instruction")
+    if not (options.vcd or options.itrace or options.lcov or options.profile or options.report):
+        return None
+    from libins import observe  # pyvcd only where it is needed
+
+    assert isinstance(loaded, Scenario)
     wanted = observe.Wanted(
         vcd=placed(options.vcd),
         sfrs=options.vcd_sfr,
@@ -59,6 +79,20 @@ def observation(loaded: Scenario, options: argparse.Namespace, place: Callable[[
         profile=options.profile is not None,
         cdb=options.cdb,
         source=options.source,
-        view_s=(stop_s / 2 if options.report_at is None else options.report_at) if options.report else None,
+        view_s=view_s,
     )
     return observe.Observation(loaded, wanted)
+
+
+def _of_net(
+    options: argparse.Namespace, placed: Callable[[Path | None], Path | None], view_s: float | None
+) -> "Watch | None":
+    for name in OF_8051:
+        if getattr(options, name):
+            raise UsageError(f"--{name}: reads 8051 code; firmware for the F2812 is compiled for this machine")
+    if not (options.vcd or options.access_log or options.report):
+        return None
+    from libins import net_observe
+
+    wanted = net_observe.Wanted(placed(options.vcd), options.vcd_sfr, placed(options.access_log), view_s)
+    return net_observe.Observation(wanted)

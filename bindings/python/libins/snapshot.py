@@ -73,14 +73,14 @@ def read(path: Path) -> Snapshot:
         )
     document = Document(Path(d["name"]), d["table"])
     scenario = Scenario(
-        document.path,
-        document.parse(Tables, document.table),
-        [(address, bytes.fromhex(octets)) for address, octets in d["image"]],
-        Path(d["firmware"]),
-        None if d["csv"] is None else np.array(d["csv"]),
-        {},
-        d["table"],
-        {place: np.array(volts) for place, volts in d["analog"]},
+        path=document.path,
+        tables=document.parse(Tables, document.table),
+        firmware=Path(d["firmware"]),
+        csv=None if d["csv"] is None else np.array(d["csv"]),
+        combination={},
+        table=d["table"],
+        image=[(address, bytes.fromhex(octets)) for address, octets in d["image"]],
+        volts={place: np.array(volts) for place, volts in d["analog"]},
     )
     received = tuple(Octet(*octet) for octet in d["received"])
     return Snapshot(scenario, d["navigator"], d["now_ps"], state, received, d["read"], dict(d["volts"]))

@@ -44,6 +44,47 @@ class Settings:
     """Of a bit of IE."""
 
 
+class Writer:
+    """Changes of variables as they come, sorted and held back until nothing earlier can come."""
+
+    def __init__(self, file: TextIO, begin_ps: int, baud: float) -> None:
+        """baud: of the slowest line with octets."""
+        self._writer = VCDWriter(file, timescale="1 ps", date="", version="libins", init_timestamp=begin_ps)
+        self._pending: list[tuple[int, Any, Any]] = []
+        """Instant, variable, value: held back."""
+        self._held_ps = round(HELD_BITS * uart.PS_PER_S / baud)
+
+    def variable(self, scope: str, name: str, kind: str, size: int | None, value: Any) -> Any:
+        """A new one; scope: with dots."""
+        return self._writer.register_var(scope, name, kind, size, value)
+
+    def put(self, at: int, variable: Any, value: Any) -> None:
+        """It changes then."""
+        self._pending.append((at, variable, value))
+
+    def octet(self, frame: uart.Frame, variable: Any) -> None:
+        """From its start bit to the middle of its stop bit."""
+        self.put(frame.begin_ps, variable, str(frame))
+        self.put(frame.end_ps, variable, "")
+
+    def write(self, now_ps: int) -> None:
+        """What is certain at that instant."""
+        self._write(now_ps - self._held_ps)
+
+    def _write(self, until: int) -> None:
+        self._pending.sort(key=itemgetter(0))
+        due = bisect_right(self._pending, until, key=itemgetter(0))
+        change = self._writer.change
+        for at, variable, value in self._pending[:due]:
+            change(variable, at, value)
+        del self._pending[:due]
+
+    def close(self, now_ps: int) -> None:
+        """Write what is still held back, and the end's instant."""
+        self._write(now_ps)
+        self._writer.close(now_ps)
+
+
 class Dump:
     """Takes a run slice by slice and writes it as it comes."""
 
@@ -51,10 +92,8 @@ class Dump:
         """The run must be at its begin, with config.seen and config.trace on."""
         self._run = run
         self._settings = settings
-        self._writer = VCDWriter(file, timescale="1 ps", date="", version="libins", init_timestamp=run.now_ps)
-        self._pending: list[tuple[int, Any, Any]] = []
-        """Instant, variable, value: held back."""
-        self._held_ps = round(HELD_BITS * uart.PS_PER_S / settings.baud)
+        self._writer = Writer(file, run.now_ps, settings.baud)
+        self._put = self._writer.put
         self._next_analog_ps = run.now_ps
         self._decoders = {net: uart.Decoder(settings.baud) for net in LINES}
         self._pins = [sum(run.pin(n, bit) << bit for bit in range(8)) for n in range(PORTS)]
@@ -76,10 +115,7 @@ class Dump:
         return self._variable("uart" if net in LINES else "tlc2543", identifier(net), "wire", 1, level)
 
     def _variable(self, scope: str, name: str, kind: str, size: int | None, value: Any) -> Any:
-        return self._writer.register_var(f"board.{scope}", name, kind, size, value)
-
-    def _put(self, at: int, variable: Any, value: Any) -> None:
-        self._pending.append((at, variable, value))
+        return self._writer.variable(f"board.{scope}", name, kind, size, value)
 
     def slice(self, edges: Any, pins: Any, changes: Any, samples: Samples) -> None:
         """What happened since the last call, up to the run's present: `changes` are what an Observer has seen."""
@@ -98,8 +134,7 @@ class Dump:
         for net, decoder in self._decoders.items():
             wire = _run.WIRES.index(net)
             for frame in decoder.feed(((at, bool(level)) for at, w, level in edges.tolist() if w == wire), now):
-                self._put(frame.begin_ps, self._octets[net], str(frame))
-                self._put(frame.end_ps, self._octets[net], "")
+                self._writer.octet(frame, self._octets[net])
         for at, channel, code, volts in samples:
             if channel < len(self._volts):
                 self._put(at, self._volts[channel], volts)
@@ -110,17 +145,8 @@ class Dump:
             for channel, variable in enumerate(self._volts):
                 self._put(self._next_analog_ps, variable, _run.volts(self._run, channel, self._next_analog_ps))
             self._next_analog_ps += round(self._settings.analog_us * PS_PER_US)
-        self._write(now - self._held_ps)
-
-    def _write(self, until: int) -> None:
-        self._pending.sort(key=itemgetter(0))
-        due = bisect_right(self._pending, until, key=itemgetter(0))
-        change = self._writer.change
-        for at, variable, value in self._pending[:due]:
-            change(variable, at, value)
-        del self._pending[:due]
+        self._writer.write(now)
 
     def close(self) -> None:
         """Write what is still held back, and the end's instant."""
-        self._write(self._run.now_ps)
         self._writer.close(self._run.now_ps)

@@ -1,5 +1,6 @@
 """A window of a run, kept while the run passes: edges, samples, octets and volts around an instant, for pictures."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -32,29 +33,46 @@ class View:
     """Seconds, and volts of each input."""
 
 
+class Nets:
+    """Keeps edges and octets of wires around an instant while a run passes."""
+
+    def __init__(
+        self, begin: Mapping[str, tuple[int, bool]], bauds: Mapping[str, float], at_s: float, span_s: float = SPAN_S
+    ) -> None:
+        """begin: instant and level of each wire, in the order of the edges' numbers; bauds: of those with octets."""
+        self._decoders = {net: Decoder(baud) for net, baud in bauds.items()}
+        self._span_ps = round(span_s * PS_PER_S)
+        self.view = View(round(at_s * PS_PER_S), {net: [edge] for net, edge in begin.items()})
+        self.view.frames = {net: [] for net in bauds}
+
+    def slice(self, edges: Any, now_ps: int) -> None:
+        """What happened since the last call."""
+        view = self.view
+        for wire, net in enumerate(view.nets):
+            mine = [(at, bool(level)) for at, w, level in edges.tolist() if w == wire]
+            if net in self._decoders:
+                view.frames[net] += [f for f in self._decoders[net].feed(mine, now_ps) if self.near(f.begin_ps)]
+            before = [edge for edge in mine if edge[0] < view.at_ps - self._span_ps]
+            view.nets[net] = (before[-1:] or view.nets[net]) + [edge for edge in mine if self.near(edge[0])]
+
+    def near(self, at: int) -> bool:
+        """Whether an instant is in the window."""
+        return abs(at - self.view.at_ps) <= self._span_ps
+
+
 class Recorder:
-    """Keeps the view of a run while it passes."""
+    """Keeps the view of a run of the acquisition board while it passes."""
 
     def __init__(self, run: Any, at_s: float, baud: float) -> None:
         """The run must be at its begin."""
-        self._decoders = {net: Decoder(baud) for net in LINES}
-        begin = [(run.now_ps, bool(run.level(i))) for i in range(len(_run.WIRES))]
-        self.view = View(round(at_s * PS_PER_S), {net: [begin[i]] for i, net in enumerate(_run.WIRES)})
-        self.view.frames = {net: [] for net in LINES}
+        begin = {net: (run.now_ps, bool(run.level(i))) for i, net in enumerate(_run.WIRES)}
+        self._nets = Nets(begin, dict.fromkeys(LINES, baud), at_s)
+        self.view = self._nets.view
 
     def slice(self, run: Any, edges: Any, samples: list[tuple[int, int, int, float]]) -> None:
         """What happened since the last call."""
-        view = self.view
-        for wire, net in enumerate(_run.WIRES):
-            mine = [(at, bool(level)) for at, w, level in edges.tolist() if w == wire]
-            if net in LINES:
-                view.frames[net] += [f for f in self._decoders[net].feed(mine, run.now_ps) if self._near(f.begin_ps)]
-            before = [edge for edge in mine if edge[0] < view.at_ps - SPAN_S * PS_PER_S]
-            view.nets[net] = (before[-1:] or view.nets[net]) + [edge for edge in mine if self._near(edge[0])]
-        view.samples += [sample for sample in samples if self._near(sample[0])]
-
-    def _near(self, at: int) -> bool:
-        return abs(at - self.view.at_ps) <= SPAN_S * PS_PER_S
+        self._nets.slice(edges, run.now_ps)
+        self.view.samples += [sample for sample in samples if self._nets.near(sample[0])]
 
     def end(self, run: Any) -> None:
         """Ask for the volts, which are a function of time."""

@@ -316,6 +316,10 @@ void Net::add_fault(const std::string& name, const Fault& fault)
                                         " with a line is needed:" + (pins.empty() ? " there is none" : pins));
         }
         s.add_fault(fault);
+        auto* const acq = dynamic_cast<AcqStation*>(&s);
+        const FaultList* const list = acq == nullptr ? &s.faults() : nullptr;
+        faults_.push_back(
+            {&s, list, (acq != nullptr ? acq->run().faults().hits().size() : list->entries().size()) - 1});
         return;
     }
     if (shorts && fault.other != "gnd" && fault.other != "vcc")
@@ -324,31 +328,25 @@ void Net::add_fault(const std::string& name, const Fault& fault)
                                     "', but a line between boards is shorted to gnd or vcc");
     }
     channel->add_fault(fault, at_source);
+    faults_.push_back({&s, &channel->faults(), channel->faults().entries().size() - 1});
 }
 
 std::vector<std::pair<const char*, uint64_t>> Net::fault_hits(const std::string& name)
 {
     std::vector<std::pair<const char*, uint64_t>> hits;
-    const auto put = [&](const FaultList& list)
+    for (const Added& added : faults_)
     {
-        for (const FaultList::Entry& entry : list.entries())
+        if (!name.empty() && added.station->name() != name)
         {
-            hits.emplace_back(fault_kinds[static_cast<size_t>(entry.fault.kind)], entry.hits);
+            continue;
         }
-    };
-    Station& s = station(name);
-    put(s.faults());
-    for (const Way& way : ways_)
-    {
-        if (&way.channel->source() == &s || &way.channel->destination() == &s)
+        if (added.list == nullptr)
         {
-            put(way.channel->faults());
+            hits.push_back(dynamic_cast<AcqStation&>(*added.station).run().faults().hits()[added.index]);
+            continue;
         }
-    }
-    if (auto* const acq = dynamic_cast<AcqStation*>(&s))
-    {
-        const auto own = acq->run().faults().hits();
-        hits.insert(hits.end(), own.begin(), own.end());
+        const FaultList::Entry& entry = added.list->entries()[added.index];
+        hits.emplace_back(fault_kinds[static_cast<size_t>(entry.fault.kind)], entry.hits);
     }
     return hits;
 }

@@ -61,7 +61,7 @@ class Net
     emu_time_t now() const;
     /// Edges of all traces up to now(), by instant and trace.
     std::vector<TracedEdge> take_edges();
-    /// Of a station and its lines: kind and how often.
+    /// Kind of each fault and how often it has acted, in the order they were added; station: of its own alone, empty: of all.
     std::vector<std::pair<const char*, uint64_t>> fault_hits(const std::string& station);
     /// Bits inverted and octets swallowed on a line, both ways.
     std::array<uint64_t, 2> line_counts(size_t line) const;
@@ -81,6 +81,14 @@ class Net
         size_t source, destination, line;
     };
 
+    /// A fault, as one of a list; an acquisition board keeps its own.
+    struct Added
+    {
+        Station* station;
+        const FaultList* list; ///< NULL: the board's
+        size_t index;
+    };
+
     void adopt(std::unique_ptr<Station> station);
     End end_of(const std::string& name) const;
     void connect(End from, End to, const LineConfig& config, size_t line);
@@ -94,6 +102,7 @@ class Net
     std::vector<Way> ways_;
     size_t lines_ = 0;
     int64_t traces_ = 0;
+    std::vector<Added> faults_;
     std::vector<emu_time_t> earliest_; ///< by station: nothing leaves before
     std::vector<emu_time_t> goals_;    ///< by station
     std::vector<TracedEdge> edges_;

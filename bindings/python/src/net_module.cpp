@@ -385,7 +385,8 @@ void bind_net(nb::module_& module)
         .def("trace", &Net::trace, "station"_a, "wire"_a)
         .def("take_edges", take_edges)
         .def("add_fault", &Net::add_fault, "station"_a, "fault"_a)
-        .def("fault_hits", fault_hits, "station"_a)
+        .def("fault_hits", fault_hits, "station"_a = "",
+             "In the order in which they were added; of one station, or of all.")
         .def_ro("rounds", &Net::rounds)
         .def_ro("windows", &Net::windows);
 }
