@@ -48,7 +48,8 @@ foreach(bits 32 64)
   set(strict -std=c11 -O2 -Wall -Wextra -Werror -ffp-contract=off)
   f2812_archive(libf2812 ${bits}
     COMMAND ${cc} ${strict} -I${here}/include -I${PROJECT_SOURCE_DIR}/emu/common/include
-    SOURCES ${device} ${common} ${shim} ${here}/shim/main.c ${here}/shim/fault.c ${here}/shim/pipe.c ${here}/shim/summary.c)
+    SOURCES ${device} ${common} ${shim} ${here}/shim/main.c ${here}/shim/fault.c ${here}/shim/pipe.c ${here}/shim/pipe_watch.c
+            ${here}/shim/summary.c)
   f2812_archive(libdsp281x ${bits} COMMAND ${here}/f2812-cc -m${bits} DEPENDS ${here}/f2812-cc SOURCES ${guest})
   f2812_archive(libinsf ${bits}
     COMMAND ${cc} ${strict} -DINS_REAL_FLOAT -fsanitize-coverage=trace-pc -I${here}/shim/include -I${PROJECT_SOURCE_DIR}/libins/core/include

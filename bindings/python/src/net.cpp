@@ -156,6 +156,7 @@ void Net::find_goals(emu_time_t t)
     for (size_t i = 0; i < n; i++)
     {
         Station& s = *stations_[i];
+        s.apply_faults();
         const emu_time_t changes = std::max(s.now() + 1, s.faults().next());
         earliest_[i] = std::min({s.silent_until(), changes, plus(s.arrival(), s.reaction())});
     }
@@ -174,7 +175,7 @@ void Net::find_goals(emu_time_t t)
             }
         }
     }
-    goals_.assign(n, std::min(t, plus(now(), window_most)));
+    goals_.assign(n, std::min(t, plus(now() - now() % window_most, window_most)));
     for (const Way& way : ways_)
     {
         const Channel& c = *way.channel;
@@ -185,7 +186,7 @@ void Net::find_goals(emu_time_t t)
     for (size_t i = 0; i < n; i++)
     {
         const emu_time_t fault = stations_[i]->faults().next();
-        goals_[i] = fault > stations_[i]->now() ? std::min(goals_[i], fault) : goals_[i];
+        goals_[i] = std::min(goals_[i], fault);
     }
 }
 

@@ -17,7 +17,7 @@ namespace libins
 class Net
 {
   public:
-    /// No station goes further ahead of the others; a program that hangs is found by then.
+    /// All stations meet at multiples of it: none goes further ahead of the others, and a program that hangs is found by then.
     static constexpr emu_time_t window_most = EMU_PS_PER_S / 10;
 
     explicit Net(uint64_t seed) : seed_(seed) {}

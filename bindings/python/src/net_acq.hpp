@@ -25,6 +25,7 @@ class AcqStation final : public LocalStation
 
   protected:
     emu_wire_t* wire(const std::string& name) override;
+    void act(const FaultList::Entry&) override {} ///< the board has its own
 
   private:
     std::unique_ptr<Run> run_;

@@ -99,7 +99,6 @@ void F2812Station::trace(const std::string& wire, int64_t number)
 
 void F2812Station::begin(emu_time_t goal)
 {
-    faults_.apply(now_, [this](const FaultList::Entry& entry) { act(entry); });
     auto& run = message_->u.run;
     run.count = 0;
     run.until = goal;
@@ -129,6 +128,7 @@ void F2812Station::begin(emu_time_t goal)
     {
         run.count--;
     }
+    goal_ = run.until;
     message_->kind = F2812_LINK_RUN;
     process_.send(*message_, now_);
 }
@@ -152,6 +152,11 @@ void F2812Station::finish()
             break;
         case F2812_LINK_DONE:
             take_edges(message_->u.done.count, message_->u.done.edges);
+            if (message_->u.done.reached < now_ || message_->u.done.reached > goal_)
+            {
+                throw ProgramError(name() +
+                                   ": a window ended outside itself; build the program again with this libins");
+            }
             now_ = message_->u.done.reached;
             silent_until_ = message_->u.done.quiet;
             why_ = message_->u.done.why;
@@ -222,6 +227,7 @@ void F2812Station::act(const FaultList::Entry& entry)
     {
         message_->u.clock.ppb = entry.on ? fault_ppb(entry.fault, now_) : 0;
         ask(F2812_LINK_CLOCK, F2812_LINK_READY);
+        silent_until_ = now_ + 1; // what was to come may come sooner
         return;
     }
     ports()[reset_port].coming.push_back({now_ + 1, !entry.on});

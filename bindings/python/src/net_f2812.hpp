@@ -54,14 +54,14 @@ class F2812Station final : public Station
     size_t open_wire(const std::string& name, bool driven);
     /// Send message_, wait for the answer. \return it. Throws std::invalid_argument with its reason when it was refused.
     const f2812_link_t& ask(f2812_link_kind_t kind, f2812_link_kind_t answer);
-    void act(const FaultList::Entry& entry);
+    void act(const FaultList::Entry& entry) override;
     void take_edges(unsigned count, const f2812_link_edge_t* edges);
     void take_report();
 
     Process process_;
     std::unique_ptr<f2812_link_t> message_ = std::make_unique<f2812_link_t>();
     std::vector<Wire> wires_;
-    emu_time_t now_ = 0, silent_until_ = 1;
+    emu_time_t now_ = 0, goal_ = 0, silent_until_ = 1;
     uint8_t why_ = F2812_WHY_REACHED;
     f2812_link_access_t access_{};
     std::string end_;

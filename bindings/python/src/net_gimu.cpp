@@ -45,9 +45,12 @@ emu_wire_t* GimuStation::wire(const std::string& name)
 
 void GimuStation::begin(emu_time_t goal)
 {
-    faults_.apply(now(), [this](const FaultList::Entry& entry)
-                  { emu_serial_end_set_baud(&gimu_.t, entry.on ? baud_with(entry.fault, baud_, name()) : baud_); });
     emu_sched_advance(&sched_, goal);
+}
+
+void GimuStation::act(const FaultList::Entry& entry)
+{
+    emu_serial_end_set_baud(&gimu_.t, entry.on ? baud_with(entry.fault, baud_, name()) : baud_);
 }
 
 void GimuStation::add_fault(const Fault& fault)

@@ -38,6 +38,7 @@ class GimuStation final : public LocalStation
 
   protected:
     emu_wire_t* wire(const std::string& name) override;
+    void act(const FaultList::Entry& entry) override;
 
   private:
     static bool on_fix(void* ctx, int64_t t_ps, gimu_fix_t* fix);

@@ -37,10 +37,13 @@ emu_wire_t* HostStation::wire(const std::string& name)
     return name == "TXD" ? &txd_ : name == "RXD" ? &rxd_ : nullptr;
 }
 
+void HostStation::act(const FaultList::Entry& entry)
+{
+    emu_serial_end_set_baud(&end_, entry.on ? baud_with(entry.fault, baud_, name()) : baud_);
+}
+
 void HostStation::begin(emu_time_t goal)
 {
-    faults_.apply(now(), [this](const FaultList::Entry& entry)
-                  { emu_serial_end_set_baud(&end_, entry.on ? baud_with(entry.fault, baud_, name()) : baud_); });
     stopped_ = false;
     arm(goal);
     while (!stopped_ && emu_sched_next(&sched_) <= goal)

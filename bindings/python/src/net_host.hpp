@@ -45,6 +45,7 @@ class HostStation final : public LocalStation
 
   protected:
     emu_wire_t* wire(const std::string& name) override;
+    void act(const FaultList::Entry& entry) override;
 
   private:
     static void on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at);

@@ -68,6 +68,14 @@ class Station
     virtual bool stopped() const { return false; }
     /// Tell this wire's edges as `number` from now on. Throws std::invalid_argument.
     virtual void trace(const std::string& wire, int64_t number) = 0;
+    /// Begin and end the faults that are due. Before a goal is looked for, since they change what is coming.
+    void apply_faults()
+    {
+        if (faults_.next() <= now())
+        {
+            faults_.apply(now(), [this](const FaultList::Entry& entry) { act(entry); });
+        }
+    }
     /// Throws std::invalid_argument for one that the station cannot have.
     virtual void add_fault(const Fault& fault) = 0;
 
@@ -80,6 +88,8 @@ class Station
     FaultList& faults() { return faults_; }
 
   protected:
+    /// A fault begins, goes on changing, or ends.
+    virtual void act(const FaultList::Entry& entry) = 0;
     FaultList faults_;
 
   private:

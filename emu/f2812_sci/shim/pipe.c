@@ -1,8 +1,7 @@
 /// The program's side of the pipe: one message in, its answer out; see emu_f2812/wirelink.h.
 /// SPDX-License-Identifier: MIT
 #define _DEFAULT_SOURCE // setitimer
-#include "pipe.h"
-#include "emu_f2812/wirelink.h"
+#include "pipe_internal.h"
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
@@ -14,34 +13,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
-#define BREAKS  64
 #define LOOK_US 500000 ///< firmware that never comes to a hook does not outlive its run by more
-
-typedef struct pipe_t pipe_t;
-
-typedef struct pipe_wire_t
-{
-    pipe_t* pipe;
-    emu_wire_t* wire;
-    int driver; ///< -1: watched
-} pipe_wire_t;
-
-struct pipe_t
-{
-    int fd;
-    const f2812_program_t* program;
-    emu_sched_t sched;
-    f2812_t* device; ///< NULL before START
-    f2812_shim_t* shim;
-    pipe_wire_t wires[F2812_LINK_WIRES];
-    unsigned wire_count;
-    emu_event_t edge_event;
-    unsigned edge; ///< of `in`, the next to come
-    f2812_link_access_t breaks[BREAKS];
-    unsigned break_count;
-    bool record_accesses, record_interrupts, broken;
-    f2812_link_t in, out, edges, records, report;
-};
 
 static int hang_up_fd;
 
@@ -66,7 +38,7 @@ static void watch_other_end(int fd)
     (void)prctl(PR_SET_PDEATHSIG, 0); // is sent at the end of a thread of the parent already
 }
 
-static void send_message(pipe_t* self, f2812_link_t* message)
+void f2812_pipe_send(pipe_t* self, f2812_link_t* message)
 {
     uint8_t octets[F2812_LINK_OCTETS];
     emu_state_t io = {.to = octets, .size = sizeof octets};
@@ -81,18 +53,18 @@ static void send_message(pipe_t* self, f2812_link_t* message)
     }
 }
 
-static void answer(pipe_t* self, f2812_link_kind_t kind)
+void f2812_pipe_answer(pipe_t* self, f2812_link_kind_t kind)
 {
     self->out.kind = (uint8_t)kind;
-    send_message(self, &self->out);
+    f2812_pipe_send(self, &self->out);
 }
 
-static void refuse(pipe_t* self, const char* what, const char* why)
+void f2812_pipe_refuse(pipe_t* self, const char* what, const char* why)
 {
     char text[2 * F2812_LINK_TEXT];
     (void)snprintf(text, sizeof text, "%s: %s", what, why);
     f2812_link_text(self->out.u.refused.text, F2812_LINK_TEXT, text);
-    answer(self, F2812_LINK_REFUSED);
+    f2812_pipe_answer(self, F2812_LINK_REFUSED);
 }
 
 static void on_report(void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at)
@@ -103,64 +75,7 @@ static void on_report(void* ctx, emu_report_kind_t kind, const char* text, uint3
     self->report.u.report.detail = detail;
     self->report.u.report.kind = (uint8_t)kind;
     f2812_link_text(self->report.u.report.text, F2812_LINK_TEXT, text);
-    send_message(self, &self->report);
-}
-
-static void flush_records(pipe_t* self)
-{
-    if (self->records.u.records.count > 0)
-    {
-        self->records.kind = F2812_LINK_RECORDS_ARE;
-        send_message(self, &self->records);
-        self->records.u.records.count = 0;
-    }
-}
-
-static void put_record(pipe_t* self, f2812_link_what_t what, uint16_t address, uint16_t value, emu_time_t at)
-{
-    if (self->records.u.records.count == F2812_LINK_RECORDS)
-    {
-        flush_records(self);
-    }
-    self->records.u.records.records[self->records.u.records.count++] =
-        (f2812_link_record_t){.at = at, .what = (uint8_t)what, .address = address, .value = value};
-}
-
-static void on_interrupt(void* ctx, unsigned vector, bool enter, emu_time_t at)
-{
-    put_record(ctx, enter ? F2812_INTERRUPT_BEGAN : F2812_INTERRUPT_ENDED, (uint16_t)vector, 0, at);
-}
-
-static void on_access(void* ctx, uint16_t address, uint16_t value, bool write, emu_time_t at)
-{
-    pipe_t* const self = ctx;
-    const unsigned access = write ? F2812_ACCESS_WRITE : F2812_ACCESS_READ;
-    if (self->record_accesses)
-    {
-        put_record(self, write ? F2812_WAS_WRITTEN : F2812_WAS_READ, address, value, at);
-    }
-    for (unsigned i = 0; i < self->break_count && !self->broken; i++)
-    {
-        const f2812_link_access_t* const b = &self->breaks[i];
-        if (b->address == address && (b->access & access) != 0 && ((b->value ^ value) & b->mask) == 0)
-        {
-            self->broken = true;
-            self->out.u.done.access =
-                (f2812_link_access_t){.address = address, .value = value, .access = (uint8_t)access};
-            f2812_shim_break(self->shim);
-        }
-    }
-}
-
-/// An observer costs time: there is one only while somebody wants what it sees.
-static void observe(pipe_t* self)
-{
-    const f2812_observer_t observer = {
-        .ctx = self,
-        .access = self->record_accesses || self->break_count > 0 ? on_access : NULL,
-        .interrupt = self->record_interrupts ? on_interrupt : NULL,
-    };
-    f2812_observe(self->device, observer.access != NULL || observer.interrupt != NULL ? &observer : NULL);
+    f2812_pipe_send(self, &self->report);
 }
 
 static void on_edge_out(void* ctx, bool level, emu_time_t at)
@@ -170,7 +85,7 @@ static void on_edge_out(void* ctx, bool level, emu_time_t at)
     if (self->edges.u.edges.count == F2812_LINK_EDGES)
     {
         self->edges.kind = F2812_LINK_EDGES_ARE;
-        send_message(self, &self->edges);
+        f2812_pipe_send(self, &self->edges);
         self->edges.u.edges.count = 0;
     }
     self->edges.u.edges.edges[self->edges.u.edges.count++] =
@@ -201,7 +116,7 @@ static void start(pipe_t* self)
         const char* const why = f2812_switch_set(&config.switches, pair->name, pair->value);
         if (why != NULL)
         {
-            refuse(self, pair->name, why);
+            f2812_pipe_refuse(self, pair->name, why);
             return;
         }
     }
@@ -211,11 +126,11 @@ static void start(pipe_t* self)
         self->device != NULL ? f2812_shim_create(self->device, &self->sched, self->program, &config.report) : NULL;
     if (self->shim == NULL)
     {
-        refuse(self, "the board could not be made", "out of memory, or an oscillator outside its range");
+        f2812_pipe_refuse(self, "the board could not be made", "out of memory, or an oscillator outside its range");
         return;
     }
     self->edge_event = (emu_event_t){.fire = on_edge_in, .ctx = self};
-    answer(self, F2812_LINK_READY);
+    f2812_pipe_answer(self, F2812_LINK_READY);
 }
 
 static void open_wire(pipe_t* self)
@@ -224,7 +139,7 @@ static void open_wire(pipe_t* self)
     emu_wire_t* const net = f2812_wire(self->device, name);
     if (net == NULL || self->wire_count == F2812_LINK_WIRES)
     {
-        refuse(self, name, net == NULL ? "the F2812 has no such wire" : "too many wires are looked at");
+        f2812_pipe_refuse(self, name, net == NULL ? "the F2812 has no such wire" : "too many wires are looked at");
         return;
     }
     pipe_wire_t* const wire = &self->wires[self->wire_count];
@@ -236,7 +151,7 @@ static void open_wire(pipe_t* self)
     }
     if (self->in.u.wire.driven ? wire->driver < 0 : emu_wire_watch(net, on_edge_out, wire) != 0)
     {
-        refuse(self, name, "is looked at too often");
+        f2812_pipe_refuse(self, name, "is looked at too often");
         return;
     }
     self->wire_count++;
@@ -244,35 +159,7 @@ static void open_wire(pipe_t* self)
     {
         on_edge_out(wire, false, self->sched.now); // its reader takes it for high
     }
-    answer(self, F2812_LINK_READY);
-}
-
-static void set_break(pipe_t* self)
-{
-    const f2812_link_access_t wanted = self->in.u.at;
-    if (wanted.access != 0 && self->break_count == BREAKS)
-    {
-        refuse(self, "break", "there are 64 already; take one away");
-        return;
-    }
-    if (wanted.access != 0)
-    {
-        self->breaks[self->break_count++] = wanted;
-    }
-    else
-    {
-        unsigned kept = 0;
-        for (unsigned i = 0; i < self->break_count; i++)
-        {
-            if (self->breaks[i].address != wanted.address)
-            {
-                self->breaks[kept++] = self->breaks[i];
-            }
-        }
-        self->break_count = kept;
-    }
-    observe(self);
-    answer(self, F2812_LINK_READY);
+    f2812_pipe_answer(self, F2812_LINK_READY);
 }
 
 static bool edges_possible(const pipe_t* self)
@@ -293,7 +180,7 @@ static void run(pipe_t* self)
 {
     if (!edges_possible(self))
     {
-        refuse(self, "window", "an edge is outside it, or on a wire that is not driven");
+        f2812_pipe_refuse(self, "window", "an edge is outside it, or on a wire that is not driven");
         return;
     }
     self->edge = 0;
@@ -305,9 +192,11 @@ static void run(pipe_t* self)
     }
     const f2812_stop_t stop = f2812_shim_run(self->shim, self->in.u.run.until);
     emu_sched_cancel(&self->sched, &self->edge_event); // after a break the run sends what has not come yet once more
-    flush_records(self);
+    f2812_pipe_flush(self);
     self->out.u.done.reached = self->sched.now;
-    self->out.u.done.quiet = stop == F2812_ENDED ? emu_sched_next(&self->sched) : self->sched.now + 1;
+    const bool waits = stop == F2812_ENDED || (stop == F2812_REACHED && f2812_shim_waiting(self->shim));
+    const emu_time_t due = emu_sched_next(&self->sched);
+    self->out.u.done.quiet = waits && due > self->sched.now ? due : self->sched.now + 1;
     self->out.u.done.why = stop == F2812_ENDED                    ? F2812_WHY_ENDED
                            : stop == F2812_BROKEN && self->broken ? F2812_WHY_BREAK
                                                                   : F2812_WHY_REACHED;
@@ -316,7 +205,7 @@ static void run(pipe_t* self)
     memcpy(self->out.u.done.edges, self->edges.u.edges.edges,
            self->edges.u.edges.count * sizeof self->edges.u.edges.edges[0]);
     self->edges.u.edges.count = 0;
-    answer(self, F2812_LINK_DONE);
+    f2812_pipe_answer(self, F2812_LINK_DONE);
 }
 
 static void peek(pipe_t* self)
@@ -326,7 +215,7 @@ static void peek(pipe_t* self)
     {
         self->out.u.values.values[i] = f2812_peek(self->device, (uint16_t)(self->in.u.peek.address + i));
     }
-    answer(self, F2812_LINK_VALUES_ARE);
+    f2812_pipe_answer(self, F2812_LINK_VALUES_ARE);
 }
 
 static void count(pipe_t* self, const char* name, uint64_t value)
@@ -346,14 +235,14 @@ static void count_all(pipe_t* self)
     count(self, "skipped", stats->skipped);
     count(self, "interrupts", stats->interrupts);
     count(self, "starts", stats->starts);
-    answer(self, F2812_LINK_COUNTS_ARE);
+    f2812_pipe_answer(self, F2812_LINK_COUNTS_ARE);
 }
 
 static void handle(pipe_t* self)
 {
     if ((self->in.kind == F2812_LINK_START) != (self->device == NULL))
     {
-        refuse(self, "order", "START comes once, and first");
+        f2812_pipe_refuse(self, "order", "START comes once, and first");
         return;
     }
     switch (self->in.kind)
@@ -371,23 +260,20 @@ static void handle(pipe_t* self)
         peek(self);
         break;
     case F2812_LINK_BREAK:
-        set_break(self);
+        f2812_pipe_set_break(self);
         break;
     case F2812_LINK_RECORD:
-        self->record_accesses = self->in.u.record.accesses;
-        self->record_interrupts = self->in.u.record.interrupts;
-        observe(self);
-        answer(self, F2812_LINK_READY);
+        f2812_pipe_record(self);
         break;
     case F2812_LINK_CLOCK:
         f2812_set_osc_ppb(self->device, self->in.u.clock.ppb);
-        answer(self, F2812_LINK_READY);
+        f2812_pipe_answer(self, F2812_LINK_READY);
         break;
     case F2812_LINK_STATISTICS:
         count_all(self);
         break;
     default:
-        refuse(self, "kind", "no message for a program");
+        f2812_pipe_refuse(self, "kind", "no message for a program");
         break;
     }
 }
@@ -401,7 +287,7 @@ int f2812_pipe_main(int fd, const f2812_program_t* program)
     watch_other_end(fd);
     self.out.u.hello.bits = (uint8_t)(8 * sizeof(void*));
     f2812_link_text(self.out.u.hello.name, F2812_LINK_NAME, program->name);
-    answer(&self, F2812_LINK_HELLO);
+    f2812_pipe_answer(&self, F2812_LINK_HELLO);
     for (;;)
     {
         const ssize_t size = recv(fd, octets, sizeof octets, 0);

@@ -57,7 +57,7 @@ static void until_fire(void* ctx, emu_time_t at)
     }
     else if (coroutine_of(self)->inside)
     {
-        leave(self, LEAVE_REACHED);
+        leave(self, self->end != NULL ? LEAVE_ENDED : LEAVE_REACHED);
     }
 }
 
@@ -73,6 +73,10 @@ void f2812_shim_finish(f2812_shim_t* self, const char* why)
 {
     self->end = why;
     leave(self, LEAVE_ENDED);
+    for (;;) // time goes on without the firmware
+    {
+        f2812_advance(self->device, UINT32_MAX);
+    }
 }
 
 static void interrupt(f2812_shim_t* self, unsigned vector, const f2812_context_t* saved)
@@ -120,20 +124,16 @@ void f2812_shim_idle(f2812_shim_t* self)
     f2812_shim_changes++;
 }
 
+/// main() from the beginning when there is no reset, its variables as they were loaded.
 static void enter(void)
 {
     f2812_shim_t* const self = f2812_shim_current;
-    coroutine_of(self)->inside = true;
-    self->program->main();
-    f2812_shim_step(self, 0);
-    f2812_shim_finish(self, "main() returned");
-}
-
-/// main() from the beginning, its variables as they were loaded.
-static void start(f2812_shim_t* self)
-{
-    coroutine_t* const c = coroutine_of(self);
     f2812_context_t unused;
+    coroutine_of(self)->inside = true;
+    while (f2812_in_reset(self->device))
+    {
+        (void)f2812_skip(self->device, EMU_TIME_MAX);
+    }
     (void)f2812_take_interrupt(self->device, &unused); // the reset itself
     memcpy(self->program->data, self->initial, (size_t)(self->program->data_end - self->program->data));
     memset(self->loops, 0, sizeof self->loops);
@@ -141,21 +141,20 @@ static void start(f2812_shim_t* self)
     self->midway = false;
     f2812_shim_debt = 0;
     self->stats.starts++;
+    self->program->main();
+    f2812_shim_step(self, 0);
+    f2812_shim_finish(self, "main() returned");
+}
+
+static void start(f2812_shim_t* self)
+{
+    coroutine_t* const c = coroutine_of(self);
     (void)getcontext(&c->firmware);
     c->firmware.uc_stack.ss_sp = c->stack + GUARD_OCTETS;
     c->firmware.uc_stack.ss_size = STACK_OCTETS;
     c->firmware.uc_link = NULL;
     makecontext(&c->firmware, enter, 0);
     c->started = true;
-}
-
-/// Without the firmware: it has ended, or /XRS is low.
-static void pass_time(f2812_shim_t* self, emu_time_t until, bool in_reset)
-{
-    while (self->sched->now < until && (!in_reset || f2812_in_reset(self->device)))
-    {
-        (void)f2812_skip(self->device, until);
-    }
 }
 
 static leave_t go_on(f2812_shim_t* self, emu_time_t until)
@@ -165,17 +164,12 @@ static leave_t go_on(f2812_shim_t* self, emu_time_t until)
     {
         if (!c->started)
         {
-            pass_time(self, until, true);
-            if (f2812_in_reset(self->device))
-            {
-                return LEAVE_REACHED;
-            }
             start(self);
         }
         emu_sched_at(self->sched, &self->until, until);
         (void)swapcontext(&c->host, &c->firmware);
         emu_sched_cancel(self->sched, &self->until);
-        c->started = c->why == LEAVE_REACHED || c->why == LEAVE_BROKEN;
+        c->started = c->why != LEAVE_RESTART;
     } while (c->why == LEAVE_RESTART);
     return c->why;
 }
@@ -183,13 +177,9 @@ static leave_t go_on(f2812_shim_t* self, emu_time_t until)
 f2812_stop_t f2812_shim_run(f2812_shim_t* self, emu_time_t until)
 {
     coroutine_t* const c = coroutine_of(self);
-    if (self->end != NULL)
-    {
-        pass_time(self, until, false);
-        return F2812_ENDED;
-    }
     f2812_shim_current = self;
     f2812_shim_debt = c->debt;
+    self->waiting = false;
     const leave_t why = go_on(self, until);
     c->debt = f2812_shim_debt;
     return why == LEAVE_REACHED ? F2812_REACHED : why == LEAVE_BROKEN ? F2812_BROKEN : F2812_ENDED;
@@ -332,6 +322,11 @@ void f2812_shim_destroy(f2812_shim_t* self)
 void f2812_shim_break(f2812_shim_t* self)
 {
     self->stop = true;
+}
+
+bool f2812_shim_waiting(const f2812_shim_t* self)
+{
+    return self->waiting;
 }
 
 void f2812_shim_set_skip(f2812_shim_t* self, bool on)

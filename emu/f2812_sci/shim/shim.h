@@ -66,6 +66,8 @@ EMU_API void f2812_shim_destroy(f2812_shim_t* self);
 EMU_API f2812_stop_t f2812_shim_run(f2812_shim_t* self, emu_time_t until);
 /// From an observer or an event: f2812_shim_run() returns F2812_BROKEN at the present instant, at the firmware's next hook.
 EMU_API void f2812_shim_break(f2812_shim_t* self);
+/// After F2812_REACHED: the firmware waits, and does nothing before the queue's next event.
+EMU_API bool f2812_shim_waiting(const f2812_shim_t* self);
 /// Off: every turn of a waiting loop is executed. The same octets come at the same instants, later. On at first.
 EMU_API void f2812_shim_set_skip(f2812_shim_t* self, bool on);
 /// Why it ended: "ESTOP0", "main() returned", or the error. NULL before.

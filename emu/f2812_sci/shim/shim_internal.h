@@ -54,6 +54,7 @@ struct f2812_shim_t
     bool midway; ///< a volatile object was read, and nothing stored since: no interrupt comes between
     bool stop;   ///< f2812_shim_break()
     bool skip;
+    bool waiting; ///< the firmware's last loop was such, and nothing is due before `until`
     uint64_t vector_before; ///< what the entry of the table held
     f2812_shim_stats_t stats;
 

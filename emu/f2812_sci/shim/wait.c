@@ -50,6 +50,7 @@ void f2812_shim_turn(const uintptr_t* kept)
     self->midway = false;
     f2812_shim_step(self, F2812_CYCLES_TURN);
     self->stats.turns++;
+    self->waiting = false;
     if (!self->skip)
     {
         return;
@@ -62,6 +63,7 @@ void f2812_shim_turn(const uintptr_t* kept)
         if (octets != 0 && loop->octets == octets && memcmp(loop->copy, kept, octets) == 0)
         {
             pass_over(self, loop);
+            self->waiting = self->sched->head == &self->until;
         }
         memcpy(loop->copy, kept, octets);
     }

@@ -61,7 +61,8 @@ typedef enum f2812_link_why_t
 #define F2812_ACCESS_READ  1u
 #define F2812_ACCESS_WRITE 2u
 
-/// What a record is of.
+/// What a record is of. A read that gives what it gave, with nothing changed in between, is a turn of a waiting loop: it is neither
+/// recorded nor a break's.
 typedef enum f2812_link_what_t
 {
     F2812_WAS_READ,
