@@ -3,6 +3,7 @@
 #include "emu/random.h"
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <gtest/gtest.h>
 #include <vector>
@@ -11,6 +12,7 @@ namespace
 {
 constexpr uint64_t kSeed = 20061;
 constexpr std::size_t kValues = 400000;
+constexpr std::size_t kBenchValues = 10000000; ///< with INS_BENCH=1
 } // namespace
 
 TEST(random, splitmix64_as_published)
@@ -24,12 +26,12 @@ TEST(random, splitmix64_as_published)
 TEST(random, normal_values_are_normal_and_independent)
 {
     uint64_t state = kSeed;
-    std::vector<double> x(kValues);
+    std::vector<double> x(std::getenv("INS_BENCH") != nullptr ? kBenchValues : kValues);
     for (double& v : x)
     {
         v = emu_random_normal(&state);
     }
-    const double n = static_cast<double>(kValues);
+    const double n = static_cast<double>(x.size());
     const double limit = 5.0 / std::sqrt(n); // five standard deviations of a mean
     double mean = 0, square = 0, third = 0, fourth = 0, next = 0;
     for (std::size_t k = 0; k < x.size(); k++)

@@ -3,13 +3,18 @@
 #include "gimu_rig.hpp"
 #include <cmath>
 #include <complex>
+#include <cstdlib>
 
 namespace
 {
 constexpr double code_v = 3.3 / 4095.0;
-constexpr int noise_minutes = 60;
 constexpr std::uint64_t noise_seed = 5;
-constexpr int drift_seeds = 20;
+
+/// Few by default; many with INS_BENCH=1.
+int count(int few, int many)
+{
+    return std::getenv("INS_BENCH") != nullptr ? many : few;
+}
 
 struct Moments
 {
@@ -85,6 +90,7 @@ TEST(gimu_sense, noise_is_white_and_of_the_stated_density)
         c.drift_v_s = 0.0;
     }
     Rig rig(config);
+    const int noise_minutes = count(60, 1200);
     rig.run_until(noise_minutes * 60 * second);
     const double n = static_cast<double>(rig.samples.size());
     const double limit = 5.0 / std::sqrt(n); // five standard deviations of a mean
@@ -196,6 +202,7 @@ TEST(gimu_sense, the_thesiss_specimen_turns_as_its_k_constants_say)
 TEST(gimu_sense, the_thesiss_specimen_drifts_as_the_thesis_reports)
 {
     const double k[3] = {0.2087, 0.2099, 0.1993};
+    const int drift_seeds = count(20, 1000);
     double without = 0.0;
     double with[3] = {0, 0, 0};
     for (int seed = 1; seed <= drift_seeds; seed++)

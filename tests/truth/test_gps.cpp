@@ -3,12 +3,14 @@
 #include "ins/geodesy.h"
 #include "ins_truth/gps.h"
 #include "track_kit.hpp"
+#include <cstdlib>
 #include <cstring>
 
 namespace
 {
 constexpr std::int64_t s_ps = 1000000000000;
-constexpr int fixes = 20000;
+constexpr int reduced_fixes = 20000;
+constexpr int bench_fixes = 1000000; ///< with INS_BENCH=1
 constexpr std::uint64_t seed = 11;
 
 Track still()
@@ -82,6 +84,7 @@ TEST(gps, errors_have_the_stated_statistics)
     c.seed = seed;
     ins_gps_t g = receiver(track, c);
     std::vector<Vec> e;
+    const int fixes = std::getenv("INS_BENCH") != nullptr ? bench_fixes : reduced_fixes;
     double velocity = 0.0;
     for (int k = 0; k < fixes; k++)
     {
