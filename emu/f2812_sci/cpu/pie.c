@@ -65,7 +65,7 @@ void f2812_pie_write(f2812_t* self, uint16_t address, uint16_t value)
         self->mem[PIEACK] &= (uint16_t)~value;
         for (unsigned group = 0; (value & writable) >> group != 0; group++)
         {
-            if ((value >> group & 1u) != 0)
+            if (((unsigned)value >> group & 1u) != 0)
             {
                 send(self, group);
             }

@@ -58,7 +58,7 @@ void f2812_serial_clocks(f2812_t* self)
 {
     for (unsigned n = 0; n < F2812_SCIS; n++)
     {
-        sci_clock(&self->serial[n].sci, (self->clocks >> (SCIAENCLK + n) & 1u) != 0);
+        sci_clock(&self->serial[n].sci, ((unsigned)self->clocks >> (SCIAENCLK + n) & 1u) != 0);
     }
 }
 

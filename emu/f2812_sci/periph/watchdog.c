@@ -33,7 +33,7 @@ static bool counts(const f2812_t* self)
 static uint8_t count(const f2812_t* self)
 {
     const f2812_watchdog_t* const w = &self->watchdog;
-    return counts(self) ? (uint8_t)(w->count + (f2812_osc_tick(self) - w->at) / step(self)) : w->count;
+    return (uint8_t)(counts(self) ? w->count + (f2812_osc_tick(self) - w->at) / step(self) : w->count);
 }
 
 void f2812_watchdog_plan(f2812_t* self)

@@ -14,7 +14,7 @@
 static void moved(f2812_t* self, unsigned n, bool level)
 {
     const unsigned control = self->mem[XINT1CR + n];
-    if ((control & ENABLE) != 0 && ((control & POLARITY) != 0) == level && (self->mem[GPEMUX] >> n & 1u) != 0)
+    if ((control & ENABLE) != 0 && ((control & POLARITY) != 0) == level && ((unsigned)self->mem[GPEMUX] >> n & 1u) != 0)
     {
         self->xint_edge[n] = self->cycle;
         f2812_pie_request(self, XINT1 + n);
