@@ -2,7 +2,7 @@
 
     python bench/f2812/mutants.py [NAME...]
 
-Each row of mutants.toml is one wrong line: `file` below emu/f2812_sci, the text `before` that is there once, the text `after` that takes
+Each row of mutants*.toml is one wrong line: `file` below emu/f2812_sci, the text `before` that is there once, the text `after` that takes
 its place, and the `rule` of docs/f2812.md that it breaks. The changed file is compiled and linked with the objects of test_f2812 as the
 release preset built them. A row that no longer fits, does not compile or is found by no test makes the exit code 1.
 """
@@ -70,13 +70,15 @@ def plant(mutant: Mutant, folder: Path) -> str:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("names", nargs="*", metavar="NAME", help="rows of mutants.toml; all without one")
+    parser.add_argument("names", nargs="*", metavar="NAME", help="rows of mutants*.toml; all without one")
     names = parser.parse_args().names
-    table = tomllib.loads((HERE / "mutants.toml").read_text(encoding="utf-8"))
+    table: dict[str, dict[str, str]] = {}
+    for path in sorted(HERE.glob("mutants*.toml")):
+        table |= tomllib.loads(path.read_text(encoding="utf-8"))
     mutants = [Mutant(name=name, **row) for name, row in table.items() if not names or name in names]
     unknown = set(names) - set(table)
     if unknown:
-        parser.error(f"mutants.toml has no {', '.join(sorted(unknown))}")
+        parser.error(f"mutants*.toml have no {', '.join(sorted(unknown))}")
     bad = 0
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
