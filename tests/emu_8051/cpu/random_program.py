@@ -3,7 +3,8 @@
 
 RAM: 00-1F banks, 20-2F bits, 30-58 data, 59-5C written by the handlers, 5D-5E turn count, 60-7F stack.
 Pointers are masked before use.
-Where a rule of silicon and uCsim differ, the program is written so that the difference cannot show:
+Where a rule of silicon and uCsim differ (docs/fidelity.md has the sources' words), the program is written so that
+the difference cannot show:
 - uCsim keeps the P bit of a direct write to PSW until ACC is next written: such a write is followed by one to ACC;
 - uCsim (0.6.4) does not change the register bank when RS0 or RS1 is written as a bit: PSW is written by octet only;
 - uCsim takes a request flag at the boundary at which it goes up, Intel's parts poll it in the next cycle, one
