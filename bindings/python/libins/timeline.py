@@ -141,7 +141,7 @@ class Timeline:
         return self._near.position if self._near is not None else None
 
     def _after(self, position: Position) -> int:
-        return bisect_right([mark.position for mark in self._marks], position)
+        return bisect_right(self._marks, position, key=lambda mark: mark.position)
 
     def _take(self) -> Mark:
         return Mark(self.position, int(self.run.now_ps) // self._grid_ps, self.run.save())
@@ -149,7 +149,7 @@ class Timeline:
     def _restore(self, mark: Mark) -> None:
         self.run.restore(mark.state)
         self._applied = mark.position.inputs
-        del self.received[bisect_right([octet[0] for octet in self.received], mark.position.at_ps) :]
+        del self.received[bisect_right(self.received, mark.position.at_ps, key=lambda octet: octet[0]) :]
 
     def _apply(self) -> None:
         self.run.watcher.settle()  # as it was when the input was carried out
