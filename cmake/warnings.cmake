@@ -4,6 +4,8 @@ add_library(ins_options INTERFACE)
 target_compile_options(ins_options INTERFACE
   -Wall -Wextra -Werror -Wconversion -Wdouble-promotion -Wshadow -Wpedantic
   $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes -Wmissing-prototypes>
+  # Clang's C++ counts more among these than GCC's: double to long double, constants of one number type alone, signs.
+  "$<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-double-promotion;-Wno-unused-const-variable;-Wno-sign-conversion>"
   -ffp-contract=off)
 if(INS_SANITIZE)
   target_compile_options(ins_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)

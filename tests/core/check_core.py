@@ -32,7 +32,7 @@ def headers(c_compiler: str, cxx_compiler: str) -> None:
             (cxx_compiler, ["-std=c++17", "-x", "c++"]),
         ):
             for number in ([], ["-DINS_REAL_FLOAT"]):
-                run([compiler, *language, *flags, *number, str(header)])
+                run([compiler, *language, *flags, *number, "-include", str(header), "/dev/null"])
 
 
 def symbols(nm: str, library: str) -> None:

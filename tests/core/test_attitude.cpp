@@ -8,7 +8,6 @@ using namespace core_test;
 
 namespace
 {
-const double DEG = PI / 180;
 const double T = 0.08;
 const size_t STEPS = 300;
 const double ROUNDING_RAD = INS_TOL(1e-12, 3e-6); // over 300 steps

@@ -7,7 +7,6 @@ using namespace core_test;
 
 namespace
 {
-const double DEG = PI / 180;
 const double T = 0.08;                              // [s]
 const size_t STEPS = 300;                           // 24 s
 const unsigned SEED = 20180;                        // of the random increments

@@ -6,6 +6,7 @@
 #include "emu_8051/acq_board.h"
 #include "ins/handshake.h"
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
@@ -122,7 +123,13 @@ class acq_rig_t
         const double baud = config.host_baud > 0.0 ? config.host_baud : config.baud;
         EXPECT_EQ(emu_serial_end_init(&end, &sched, &from_host, &to_host, baud, received, this), 0);
         EXPECT_EQ(emu_serial_line_init(&down, &sched, &from_host, acq_board_wire(board, "RXD"), &config.down), 0);
-        const ins_hs_config_t hs{config.block_len, config.seq, 3, 0, config.octet_timeout_ms};
+        ins_hs_config_t hs; // a snapshot holds the host as it lies in memory, padding and all
+        std::memset(&hs, 0, sizeof hs);
+        std::memset(&host, 0, sizeof host);
+        hs.block_len = config.block_len;
+        hs.seq = config.seq;
+        hs.retries = 3;
+        hs.octet_timeout = config.octet_timeout_ms;
         EXPECT_EQ(ins_hs_host_init(&host, &hs), INS_OK);
         clock = {tick, this, 0, false, nullptr, 0};
         ack = {acknowledge, this, 0, false, nullptr, 0};
@@ -182,7 +189,7 @@ class acq_rig_t
     emu_wire_t to_host, from_host;
     emu_serial_line_t up, down;
     emu_serial_end_t end;
-    ins_hs_host_t host{};
+    ins_hs_host_t host;
     emu_event_t clock;
     bool silent = false;      ///< the host answers nothing
     emu_time_t ack_delay = 0; ///< from a block to its 00
