@@ -98,6 +98,12 @@ def measure() -> list[Row]:
         if not board.exists():
             raise SystemExit(f"{script.name} gave no figures (exit code {done.returncode})")
         rows += json.loads(board.read_text())
+        f2812 = Path(folder) / "f2812.json"
+        script = ROOT / "bench/f2812/bench_f2812.py"
+        done = subprocess.run([sys.executable, script, "--build", BUILD, "--json", f2812])
+        if not f2812.exists():
+            raise SystemExit(f"{script.name} gave no figures (exit code {done.returncode})")
+        rows += json.loads(f2812.read_text())
         targets = Path(folder) / "targets.json"
         subprocess.run([sys.executable, ROOT / "bench/targets/measure.py", "--json", targets], check=True)
         rows += json.loads(targets.read_text())

@@ -43,9 +43,9 @@ foreach(bits 32 64)
   if(bits EQUAL 32)
     set(cc ${CMAKE_C_COMPILER_LAUNCHER} ${INS_I686_CC} -msse2 -mfpmath=sse -fno-pie)
   else()
-    set(cc ${CMAKE_C_COMPILER_LAUNCHER} gcc -fPIC)
+    set(cc ${CMAKE_C_COMPILER_LAUNCHER} gcc -fPIE)
   endif()
-  set(strict -std=c11 -O2 -Wall -Wextra -Werror -ffp-contract=off)
+  set(strict -std=c11 -O2 -Wall -Wextra -Werror -ffp-contract=off -fvisibility=hidden)
   f2812_archive(libf2812 ${bits}
     COMMAND ${cc} ${strict} -I${here}/include -I${PROJECT_SOURCE_DIR}/emu/common/include
     SOURCES ${device} ${common} ${shim} ${here}/shim/main.c ${here}/shim/fault.c ${here}/shim/pipe.c ${here}/shim/pipe_watch.c

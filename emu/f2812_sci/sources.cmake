@@ -27,6 +27,7 @@ set(F2812_SOURCES
 set(F2812_SHIM_SOURCES
   shim/asm.c
   shim/hooks.c
+  shim/map.c
   shim/shim.c
   shim/tick.S
   shim/wait.c)

@@ -14,47 +14,46 @@ uint64_t f2812_shim_changes;
 /// The same as f2812-cc names them in calls to functions that are not instrumented.
 _Static_assert(sizeof f2812_shim_debt == 4, "the thunks of f2812-cc add to 32 bits");
 
-/// Register that counts by itself, or whose reading changes something: a loop that looks at it is not passed over.
-static bool restless(uint16_t address)
-{
-    return (address >= 0x0C00 && address < 0x0C18)    // CPU timers
-           || address == 0x7023                       // WDCNTR
-           || (address >= 0x7070 && address < 0x7080) // XINTnCTR
-           || address == 0x7057 || address == 0x7757  // SCIRXBUF
-           || (address >= 0x7100 && address < 0x7800 && address != 0x7754 && (address & 0xFFF0) != 0x7750); // ADC, EV
-}
-
-static uint16_t load(f2812_shim_t* self, uint16_t address)
-{
-    switch (address)
-    {
-    case F2812_MAP_ZERO:
-        return 0;
-    case F2812_MAP_IER:
-        return f2812_cpu(self->device)->ier;
-    case F2812_MAP_IFR:
-        return f2812_cpu(self->device)->ifr;
-    default:
-        f2812_shim_changes += restless(address);
-        return f2812_read(self->device, address);
-    }
-}
-
 /// The words of an access, from the one that holds its first octet; a byte access may name the upper octet.
 static inline uint16_t* words_of(uintptr_t at)
 {
     return (uint16_t*)(at & ~(uintptr_t)1);
 }
 
-static void load_words(f2812_shim_t* self, uintptr_t at, unsigned words)
+/// What the firmware sees at an entry of the map.
+static inline uint16_t load(f2812_shim_t* self, uint16_t entry)
+{
+    const uint16_t address = entry & F2812_MAP_ADDRESS;
+    const uint16_t* const value = self->device->map[address].value;
+    f2812_shim_changes += (entry & F2812_MAP_RESTLESS) != 0;
+    return value != NULL && !self->device->observed ? *value : f2812_access_read(self->device, address);
+}
+
+static void load_special(f2812_shim_t* self, uint16_t* word, uint16_t entry)
+{
+    if (entry == F2812_MAP_IER || entry == F2812_MAP_IFR)
+    {
+        *word = entry == F2812_MAP_IER ? self->device->cpu.ier : self->device->cpu.ifr;
+    }
+    else if (entry == F2812_MAP_ZERO)
+    {
+        *word = 0;
+    }
+}
+
+static inline void load_words(f2812_shim_t* self, uintptr_t at, unsigned words)
 {
     uint16_t* const word = words_of(at);
     const uint16_t* const map = self->map + (at - self->base) / 2;
     for (unsigned i = 0; i < words; i++)
     {
-        if (map[i] != F2812_MAP_NONE && map[i] != F2812_MAP_VECTOR)
+        if (map[i] > F2812_MAP_VECTOR)
         {
             word[i] = load(self, map[i]);
+        }
+        else
+        {
+            load_special(self, &word[i], map[i]);
         }
     }
 }
@@ -71,9 +70,16 @@ static inline void reading(uintptr_t at, unsigned words)
     }
 }
 
+/// As load(), but nothing comes of it.
+static inline uint16_t look(const f2812_shim_t* self, uint16_t address)
+{
+    const uint16_t* const value = self->device->map[address].value;
+    return value != NULL ? *value : f2812_access_peek(self->device, address);
+}
+
 /// The memory is made what the device holds: a store to a bit-field puts back the rest of its word, and for its read there is no hook.
 /// An entry of PieVectTable is kept, since the store may be refused.
-static void prepare_store(f2812_shim_t* self, uintptr_t at, unsigned words)
+static inline void prepare_store(f2812_shim_t* self, uintptr_t at, unsigned words)
 {
     uint16_t* const word = words_of(at);
     const uint16_t* const map = self->map + (at - self->base) / 2;
@@ -85,7 +91,7 @@ static void prepare_store(f2812_shim_t* self, uintptr_t at, unsigned words)
     {
         if (map[i] > F2812_MAP_VECTOR)
         {
-            word[i] = f2812_peek(self->device, map[i]);
+            word[i] = look(self, map[i] & F2812_MAP_ADDRESS);
         }
     }
     self->store = (uintptr_t)word;
@@ -167,7 +173,7 @@ void f2812_shim_commit(f2812_shim_t* self)
             f2812_set_ifr(self->device, word[i]);
             break;
         default:
-            f2812_write(self->device, map[i], word[i]);
+            f2812_write(self->device, map[i] & F2812_MAP_ADDRESS, word[i]);
             break;
         }
     }

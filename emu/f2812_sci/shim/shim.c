@@ -8,11 +8,8 @@
 #include <sys/mman.h>
 #include <ucontext.h>
 
-#define GUARD_OCTETS    ((size_t)4096)
-#define STACK_OCTETS    ((size_t)1 << 20)
-#define REPORT_OCTETS   160
-#define WORD_OCTETS     2u
-#define SPAN_OCTETS_MAX ((size_t)1 << 24) ///< register objects lie together, or at least not further apart
+#define GUARD_OCTETS ((size_t)4096)
+#define STACK_OCTETS ((size_t)1 << 20)
 
 typedef enum leave_t
 {
@@ -185,57 +182,6 @@ f2812_stop_t f2812_shim_run(f2812_shim_t* self, emu_time_t until)
     return why == LEAVE_REACHED ? F2812_REACHED : why == LEAVE_BROKEN ? F2812_BROKEN : F2812_ENDED;
 }
 
-/// Which word of the device each half-word of the register objects is.
-static bool make_map(f2812_shim_t* self)
-{
-    const f2812_program_t* const p = self->program;
-    uintptr_t first = UINTPTR_MAX;
-    uintptr_t last = 0;
-    for (size_t i = 0; i < p->object_count; i++)
-    {
-        const uintptr_t at = (uintptr_t)p->objects[i].at;
-        if (at != 0)
-        {
-            first = at < first ? at : first;
-            last = at + p->objects[i].words * WORD_OCTETS > last ? at + p->objects[i].words * WORD_OCTETS : last;
-        }
-    }
-    const uintptr_t table = (uintptr_t)p->vectors;
-    const size_t table_octets = F2812_VECTORS * sizeof(void*);
-    if (table != 0)
-    {
-        first = table < first ? table : first;
-        last = table + table_octets > last ? table + table_octets : last;
-    }
-    if (first > last || last - first > SPAN_OCTETS_MAX)
-    {
-        return first > last;
-    }
-    self->base = first & ~(uintptr_t)1;
-    self->span = last - self->base;
-    self->map = calloc(self->span / WORD_OCTETS + 1, sizeof *self->map);
-    if (self->map == NULL)
-    {
-        return false;
-    }
-    for (size_t i = 0; i < p->object_count; i++)
-    {
-        const f2812_object_t* const object = &p->objects[i];
-        for (unsigned word = 0; object->at != NULL && word < object->words; word++)
-        {
-            self->map[((uintptr_t)object->at - self->base) / WORD_OCTETS + word] =
-                object->address > F2812_MAP_VECTOR ? (uint16_t)(object->address + word)
-                : word == 0                        ? object->address
-                                                   : (uint16_t)F2812_MAP_ZERO;
-        }
-    }
-    for (size_t i = 0; table != 0 && i < table_octets / WORD_OCTETS; i++)
-    {
-        self->map[(table - self->base) / WORD_OCTETS + i] = F2812_MAP_VECTOR;
-    }
-    return true;
-}
-
 static bool make_coroutine(f2812_shim_t* self)
 {
     coroutine_t* const c = calloc(1, sizeof *c);
@@ -291,7 +237,7 @@ f2812_shim_t* f2812_shim_create(f2812_t* device, emu_sched_t* sched, const f2812
     self->skip = true;
     self->until = (emu_event_t){.fire = until_fire, .ctx = self};
     self->initial = malloc(octets + 1);
-    if (!make_coroutine(self) || self->initial == NULL || !make_map(self))
+    if (!make_coroutine(self) || self->initial == NULL || !f2812_shim_make_map(self))
     {
         free_all(self);
         return NULL;

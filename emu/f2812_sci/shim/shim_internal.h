@@ -19,11 +19,14 @@
 #define F2812_CYCLES_IRET      8u  ///< IRET (SPRU430)
 
 // Pseudo addresses in the map: M0 RAM, where no register is.
-#define F2812_MAP_NONE   0u
-#define F2812_MAP_IER    1u
-#define F2812_MAP_IFR    2u
-#define F2812_MAP_ZERO   3u ///< reads 0
-#define F2812_MAP_VECTOR 4u
+#define F2812_MAP_NONE    0u
+#define F2812_MAP_IER     1u
+#define F2812_MAP_IFR     2u
+#define F2812_MAP_ZERO    3u ///< reads 0
+#define F2812_MAP_VECTOR  4u
+#define F2812_MAP_ADDRESS 0x7FFFu
+#define F2812_MAP_RESTLESS                                                                                             \
+    0x8000u ///< a counter, or reading it has an effect: a loop that looks at it is not passed over
 
 #define F2812_LOOPS        16u   ///< loops whose last turn is remembered
 #define F2812_FRAME_OCTETS 2048u ///< a loop in a function with a larger frame is never passed over
@@ -73,6 +76,8 @@ extern uint32_t f2812_shim_debt;
 /// Stores, reads that change something, and calls of what is not instrumented: a turn of a loop without any waits.
 extern uint64_t f2812_shim_changes;
 
+/// Fill base, span and map. \return false: no memory, or the objects lie too far apart.
+bool f2812_shim_make_map(f2812_shim_t* self);
 /// The pending store goes to the device.
 void f2812_shim_commit(f2812_shim_t* self);
 /// Interrupts, reset, break.
