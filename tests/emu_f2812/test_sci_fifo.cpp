@@ -307,6 +307,11 @@ TEST(sci_rx_fifo, a_seventeenth_word_sets_rxffovf_and_the_first_or_the_newest_is
         {
             EXPECT_EQ(sci.r(SCIRXBUF), newest ? n : n + 1);
         }
+        for (unsigned n = 0; n < 20; ++n)
+        {
+            sci.send_octet(n);
+        }
+        EXPECT_EQ(sci.reports.size(), 2u) << "told as RXFFOVF is set, not for each word";
     }
 }
 

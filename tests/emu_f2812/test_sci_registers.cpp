@@ -151,6 +151,9 @@ TEST(sci_registers, a_character_before_the_last_was_read_sets_oe_and_replaces_it
     EXPECT_EQ(sci.r(SCIRXBUF), 0x22);
     ASSERT_EQ(sci.reports.size(), 1u);
     EXPECT_EQ(sci.reports[0], "SCI-A: overrun: the character before it was not read");
+    sci.send_octet(0x33);
+    sci.send_octet(0x44);
+    EXPECT_EQ(sci.reports.size(), 1u) << "told as OE is set, not again";
 }
 
 /// Interrupts without FIFO: a character by RXBKINTENA, an error that begins by RXERRINTENA, and one edge for both.

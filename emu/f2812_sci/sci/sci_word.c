@@ -45,8 +45,11 @@ static void put(sci_t* self, uint16_t word)
     sci_fifo_t* const fifo = &self->rx.fifo;
     if (fifo->count == SCI_FIFO)
     {
-        sci_set(self, SCIFFRX, SCIFFRX_RXFFOVF, true);
-        sci_report(self, "receive FIFO overflow: 16 words were not read, one is lost", word & 0xFFu);
+        if (!sci_is(self, SCIFFRX, SCIFFRX_RXFFOVF))
+        {
+            sci_set(self, SCIFFRX, SCIFFRX_RXFFOVF, true);
+            sci_report(self, "receive FIFO overflow: 16 words were not read, one is lost", word & 0xFFu);
+        }
         if (self->env.switches->sci_rxffovf)
         {
             return;
@@ -72,8 +75,9 @@ void sci_rx_hand_over(sci_t* self)
     const bool pe = (ccr & SCICCR_PARITYENA) && sci_odd(frame & looked_at) == ((ccr & SCICCR_PARITY) != 0);
     const bool fifo = sci_has_fifo(self), held = fifo && !sci_is(self, SCIFFRX, SCIFFRX_RXFIFORESET);
     const bool oe = !held && sci_is(self, SCIRXST, SCIRXST_RXRDY) && (!fifo || self->rx.fifo.count == 0);
+    const bool first_oe = oe && !sci_is(self, SCIRXST, SCIRXST_OE);
     const bool error = set_errors(self, (fe ? SCIRXST_FE : 0u) | (pe ? SCIRXST_PE : 0u) | (oe ? SCIRXST_OE : 0u));
-    if (oe)
+    if (first_oe)
     {
         sci_report(self, "overrun: the character before it was not read", data);
     }
