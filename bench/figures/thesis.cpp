@@ -33,7 +33,7 @@ Moment still(double)
     return {{0, 0, 0}, {0, 0, -9.8}, 0, 0};
 }
 
-/// What the GIMU feels, and its GPS: fixes of the instant of their packet ("synchronised with the sensors", section 4.1).
+/// What the GIMU feels, and its GPS: a fix of each whole second.
 class World
 {
   public:
@@ -50,22 +50,25 @@ class World
             std::copy(m.rate, m.rate + 3, rate);
             std::copy(m.f, m.f + 3, f);
         };
-        c.fix = [](void* ctx, int64_t t_ps, gimu_fix_t* fix) { return static_cast<World*>(ctx)->fix(t_ps, fix); };
+        c.fix = [](void* ctx, int64_t t_ps, gimu_fix_t* fix)
+        {
+            static_cast<World*>(ctx)->fix_of(t_ps - t_ps % EMU_PS_PER_S, fix);
+            return true;
+        };
         return c;
     }
     Moment at(double t) const { return motion_(std::max(t - thesis::CALIBRATED_S, 0.0)); }
 
   private:
-    bool fix(int64_t t_ps, gimu_fix_t* fix)
+    void fix_of(int64_t of_ps, gimu_fix_t* fix)
     {
         std::normal_distribution<double> white(0, FIX_M);
-        const Moment m = at(static_cast<double>(t_ps) * 1e-12);
+        const Moment m = at(static_cast<double>(of_ps) * 1e-12);
         *fix = {};
-        fix->of_ps = t_ps;
+        fix->of_ps = of_ps;
         fix->longitude = LON0 + (m.east + white(random_)) / EAST_M;
         fix->latitude = LAT0 + (m.north + white(random_)) / NORTH_M;
         fix->sats = 8;
-        return true;
     }
 
     Motion motion_;

@@ -237,7 +237,7 @@ TEST(thesis_navigation, dead_reckoning_diverges_and_the_filter_does_not)
     std::printf("[ figure   ] 120 s at rest, gyro drifts 2 deg/min: dead reckoning %.0f m, filter %.1f m\n", far_dead,
                 far_filter);
     EXPECT_GT(far_dead, 100);
-    EXPECT_LT(far_filter, 10);
+    EXPECT_LT(far_filter, 15);
 }
 
 TEST(thesis_navigation, a_fix_far_off_is_refused_until_it_insists)

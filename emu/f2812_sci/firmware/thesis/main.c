@@ -15,8 +15,15 @@
 #define WDCR_ON    0x002F // WDCHK 101, 30 MHz / 512 / 64 / 256: 280 ms
 #define WDCR_FLAG  0x0080 // the last reset was the watchdog's
 
+// What it begins with; octets from the PC change it.
 #ifndef THESIS_NULLS
 #define THESIS_NULLS NULL_FRACTION
+#endif
+#ifndef THESIS_FILTER
+#define THESIS_FILTER 1
+#endif
+#ifndef THESIS_LEVEL
+#define THESIS_LEVEL 1
 #endif
 
 static volatile Uint32 Ticks;
@@ -116,8 +123,8 @@ int main(void)
     Started = WatchdogOn() ? INS_NAV_BLOCK_WATCHDOG : 0;
     ins_gimu_init(&Gimu, 1);
     report_begin(&Report);
-    Navigation.filter = 1;
-    Navigation.level = 1;
+    Navigation.filter = THESIS_FILTER;
+    Navigation.level = THESIS_LEVEL;
     navigation_begin(&Navigation, THESIS_NULLS);
     for (;;)
     {

@@ -113,18 +113,28 @@ static void take_course(navigation_t* self, const float p[2])
     }
 }
 
-/// \return 0: one of the two axes refused it; it is in neither.
-static int in_gate(const navigation_t* self, const float en[2])
+/// A fix is of THESIS_FIX_DELAY_S ago: h says where the axis was then. \param[out] off  what it is off [m].
+static ins_status_t update(ins_pva_t* axis, float fix, float* off)
 {
-    for (int i = 0; i < 2; i++)
+    static const float h[3] = {1, -THESIS_FIX_DELAY_S, THESIS_FIX_DELAY_S * THESIS_FIX_DELAY_S / 2};
+    float work[6];
+    *off = fix - h[0] * axis->x[0] - h[1] * axis->x[1] - h[2] * axis->x[2];
+    ins_innovation_t z = {*off, THESIS_FIX_VARIANCE, INS_KALMAN_GATE_999, 0};
+    return ins_kalman_update(3, axis->x, axis->P, h, &z, work);
+}
+
+/// Both axes take the fix, or neither does.
+static ins_status_t update_both(navigation_t* self, const float p[2], float off[2])
+{
+    ins_pva_t east = self->axis[0];
+    ins_pva_t north = self->axis[NORTH];
+    if (update(&east, p[0], &off[0]) != INS_OK || update(&north, p[NORTH], &off[NORTH]) != INS_OK)
     {
-        const float v = en[i] - self->origin[i] - self->axis[i].x[INS_PVA_POSITION];
-        if (!(v * v <= INS_KALMAN_GATE_999 * (self->axis[i].P[0] + THESIS_FIX_VARIANCE)))
-        {
-            return 0;
-        }
+        return INS_E_GATE;
     }
-    return 1;
+    self->axis[0] = east;
+    self->axis[NORTH] = north;
+    return INS_OK;
 }
 
 /// A tilt lets gravity pull the position away: what a fix is off turns it back. \param[in] off  east, north [m].
@@ -149,11 +159,8 @@ static void take_fix(navigation_t* self, const ins_gimu_packet_t* packet)
         begin_position(self, zone, en);
         return;
     }
-    for (int i = 0; i < 2; i++)
-    {
-        en[i] += THESIS_FIX_DELAY_S * self->axis[i].x[INS_PVA_VELOCITY];
-    }
-    if (!in_gate(self, en))
+    float p[2] = {en[0] - self->origin[0], en[1] - self->origin[1]};
+    if (update_both(self, p, off) != INS_OK)
     {
         self->status |= INS_NAV_BLOCK_GATED;
         if (++self->gated >= THESIS_GATED_MAX)
@@ -162,17 +169,14 @@ static void take_fix(navigation_t* self, const ins_gimu_packet_t* packet)
         }
         return;
     }
-    for (int i = 0; i < 2; i++)
-    {
-        off[i] = en[i] - self->origin[i] - self->axis[i].x[INS_PVA_POSITION];
-        ins_innovation_t z = {off[i], THESIS_FIX_VARIANCE, 0, 0};
-        (void)ins_pva_update(&self->axis[i], INS_PVA_POSITION, &z);
-    }
     if (self->level)
     {
         level_by(self, off);
     }
-    const float p[2] = {en[0] - self->origin[0], en[1] - self->origin[1]};
+    for (int i = 0; i < 2; i++)
+    {
+        p[i] += THESIS_FIX_DELAY_S * self->axis[i].x[INS_PVA_VELOCITY];
+    }
     self->gated = 0;
     self->fix_age = 0;
     take_course(self, p);

@@ -30,7 +30,8 @@
 
 #define THESIS_LEVEL_GAIN 0.01f ///< acceleration by which the tilt is turned back, of a metre that a fix is off [1/s^2]
 #ifndef THESIS_FIX_DELAY_S
-#define THESIS_FIX_DELAY_S 0.0f ///< from the instant a fix is of to its packet: a property of the GPS module
+#define THESIS_FIX_DELAY_S                                                                                             \
+    0.91f ///< age of a fix in its packet: of the whole second, and packet 6 begins 80 ms + 5/6 s after power-up
 #endif
 
 /// How the nulls are found. Also the octet that asks for it over SCI-B.
