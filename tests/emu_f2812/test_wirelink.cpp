@@ -72,9 +72,11 @@ std::vector<message_t> all()
         f2812_link_text(pair.value, F2812_LINK_NAME, "take");
     }
     list[F2812_LINK_WIRE]->u.wire.driven = true;
+    list[F2812_LINK_WIRE]->u.wire.answered = true;
     f2812_link_text(list[F2812_LINK_WIRE]->u.wire.name, F2812_LINK_NAME, "SCIRXDB");
     auto& run = list[F2812_LINK_RUN]->u.run;
     run.until = 2 * second;
+    run.answer = second;
     put_edges(run.count, run.edges, F2812_LINK_EDGES);
     list[F2812_LINK_PEEK]->u.peek = {0x7050, F2812_LINK_VALUES};
     list[F2812_LINK_BREAK]->u.at = {0x0CE1, 0x0100, 0x0100, F2812_ACCESS_WRITE};
@@ -123,6 +125,7 @@ TEST(wirelink, a_window_keeps_its_instants_and_levels)
     const message_t back = loaded(saved(*all()[F2812_LINK_RUN]));
     ASSERT_TRUE(back);
     EXPECT_EQ(back->u.run.until, 2 * second);
+    EXPECT_EQ(back->u.run.answer, second);
     ASSERT_EQ(back->u.run.count, F2812_LINK_EDGES);
     EXPECT_EQ(back->u.run.edges[3].at, second + 3);
     EXPECT_EQ(back->u.run.edges[3].wire, 3);

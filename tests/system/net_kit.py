@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import libins
-from libins import _run, run, scenario
+from libins import _run, machine, scenario
 
 FIRMWARE = Path(libins.__file__).parent / "firmware"
 ECHO = str(FIRMWARE / "echo.f2812")
@@ -31,14 +31,14 @@ def add_acquisition(net: Any, seed: int = 1) -> Any:
     """The 8051 board with its default firmware, and its host, on a line of their own."""
     loaded = scenario.read(scenario.Document(scenario.find("default")), None)
     tables = loaded.tables
-    gyro = run.gyro_of(loaded, seed)
+    gyro = machine.gyro_of(tables.gyro, seed)
     config = _run.RunConfig()
     config.seed = seed
     config.crystal_hz = tables.clock_hz
     config.baud = tables.link.baud
     for address, octets in loaded.image:
         config.add_segment(address, octets)
-    board = net.acq("acq", config, run.motion_of(loaded), gyro)
+    board = net.acq("acq", config, machine.motion_of(loaded), gyro)
     n = tables.nav
     assert n is not None
     nav = _run.nav(n.period_s, n.block_len, n.sequence, n.form, n.rate_order, n.skew_s, gyro)

@@ -92,6 +92,10 @@ class Net
     void adopt(std::unique_ptr<Station> station);
     End end_of(const std::string& name) const;
     void connect(End from, End to, const LineConfig& config, size_t line);
+    void spread(size_t silent);
+    void find_earliest(size_t silent);
+    emu_time_t alone_until(size_t station) const;
+    emu_time_t answer_least(size_t station) const;
     void find_goals(emu_time_t t);
     void carry();
     bool go(bool light, emu_time_t t);

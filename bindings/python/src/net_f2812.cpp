@@ -66,35 +66,36 @@ const f2812_link_t& F2812Station::ask(f2812_link_kind_t kind, f2812_link_kind_t 
     }
 }
 
-size_t F2812Station::open_wire(const std::string& name, bool driven)
+size_t F2812Station::open_wire(const std::string& name, bool driven, bool answered)
 {
     for (size_t i = 0; i < wires_.size(); i++)
     {
-        if (wires_[i].name == name && wires_[i].driven == driven)
+        if (wires_[i].name == name && wires_[i].driven == driven && wires_[i].answered == answered)
         {
             return i;
         }
     }
     message_->u.wire.driven = driven;
+    message_->u.wire.answered = answered;
     f2812_link_text(message_->u.wire.name, F2812_LINK_NAME, name.c_str());
     ask(F2812_LINK_WIRE, F2812_LINK_READY);
-    wires_.push_back({name, driven, -1, {}});
+    wires_.push_back({name, driven, answered, -1, {}});
     return wires_.size() - 1;
 }
 
 void F2812Station::open_port(size_t port)
 {
     const Port& p = ports()[port];
-    wires_[open_wire(p.rxd, true)].port = static_cast<int>(port);
+    wires_[open_wire(p.rxd, true, false)].port = static_cast<int>(port);
     if (!p.txd.empty())
     {
-        wires_[open_wire(p.txd, false)].port = static_cast<int>(port);
+        wires_[open_wire(p.txd, false, true)].port = static_cast<int>(port);
     }
 }
 
 void F2812Station::trace(const std::string& wire, int64_t number)
 {
-    wires_[open_wire(wire, false)].traces.push_back(number);
+    wires_[open_wire(wire, false, false)].traces.push_back(number);
 }
 
 void F2812Station::begin(emu_time_t goal)
@@ -102,6 +103,7 @@ void F2812Station::begin(emu_time_t goal)
     auto& run = message_->u.run;
     run.count = 0;
     run.until = goal;
+    run.answer = std::min(answer_, EMU_TIME_LOADED_MAX);
     for (size_t i = 0; i < wires_.size(); i++)
     {
         if (!wires_[i].driven)

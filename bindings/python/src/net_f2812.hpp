@@ -21,6 +21,7 @@ class F2812Station final : public Station
 
     emu_time_t now() const override { return now_; }
     emu_time_t silent_until() const override { return silent_until_; }
+    bool stops_for_answers() const override { return true; }
     void begin(emu_time_t goal) override;
     void finish() override;
     bool stopped() const override { return why_ == F2812_WHY_BREAK; }
@@ -47,11 +48,12 @@ class F2812Station final : public Station
     {
         std::string name;
         bool driven;
+        bool answered;
         int port = -1; ///< whose `left` gets its edges, or whose `coming` drives it
         std::vector<int64_t> traces;
     };
 
-    size_t open_wire(const std::string& name, bool driven);
+    size_t open_wire(const std::string& name, bool driven, bool answered);
     /// Send message_, wait for the answer. \return it. Throws std::invalid_argument with its reason when it was refused.
     const f2812_link_t& ask(f2812_link_kind_t kind, f2812_link_kind_t answer);
     void act(const FaultList::Entry& entry) override;

@@ -60,6 +60,9 @@ class Station
     virtual emu_time_t overshoot() const { return 0; }
     /// It costs next to nothing to let its time go on.
     virtual bool light() const { return false; }
+    /// It stops by itself when something may come back that it sent; set_answer() says the least time that takes.
+    virtual bool stops_for_answers() const { return false; }
+    void set_answer(emu_time_t answer) { answer_ = answer; }
     /// Let time go on to `goal`, with all that is coming up to then; a process goes on by itself until finish().
     virtual void begin(emu_time_t goal) = 0;
     /// The goal is reached, or, if stopped(), not.
@@ -91,6 +94,7 @@ class Station
     /// A fault begins, goes on changing, or ends.
     virtual void act(const FaultList::Entry& entry) = 0;
     FaultList faults_;
+    emu_time_t answer_ = EMU_TIME_LOADED_MAX;
 
   private:
     std::string name_;

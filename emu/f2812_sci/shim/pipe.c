@@ -90,6 +90,10 @@ static void on_edge_out(void* ctx, bool level, emu_time_t at)
     }
     self->edges.u.edges.edges[self->edges.u.edges.count++] =
         (f2812_link_edge_t){.at = at, .wire = (uint8_t)(wire - self->wires), .level = level};
+    if (wire->answered && self->shim != NULL && self->in.kind == F2812_LINK_RUN)
+    {
+        f2812_shim_end_by(self->shim, at + self->in.u.run.answer);
+    }
 }
 
 static void on_edge_in(void* ctx, emu_time_t at)
@@ -143,7 +147,7 @@ static void open_wire(pipe_t* self)
         return;
     }
     pipe_wire_t* const wire = &self->wires[self->wire_count];
-    *wire = (pipe_wire_t){.pipe = self, .wire = net, .driver = -1};
+    *wire = (pipe_wire_t){.pipe = self, .wire = net, .driver = -1, .answered = self->in.u.wire.answered};
     if (self->in.u.wire.driven)
     {
         wire->driver = emu_wire_add_driver(net);

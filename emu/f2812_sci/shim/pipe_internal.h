@@ -16,6 +16,7 @@ typedef struct pipe_wire_t
     pipe_t* pipe;
     emu_wire_t* wire;
     int driver; ///< -1: watched
+    bool answered;
 } pipe_wire_t;
 
 struct pipe_t

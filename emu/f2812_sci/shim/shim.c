@@ -270,6 +270,14 @@ void f2812_shim_break(f2812_shim_t* self)
     self->stop = true;
 }
 
+void f2812_shim_end_by(f2812_shim_t* self, emu_time_t until)
+{
+    if (self->until.pending && until < self->until.at)
+    {
+        emu_sched_at(self->sched, &self->until, until);
+    }
+}
+
 bool f2812_shim_waiting(const f2812_shim_t* self)
 {
     return self->waiting;

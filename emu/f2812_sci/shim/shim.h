@@ -66,6 +66,8 @@ EMU_API void f2812_shim_destroy(f2812_shim_t* self);
 EMU_API f2812_stop_t f2812_shim_run(f2812_shim_t* self, emu_time_t until);
 /// From an observer or an event: f2812_shim_run() returns F2812_BROKEN at the present instant, at the firmware's next hook.
 EMU_API void f2812_shim_break(f2812_shim_t* self);
+/// From an event: the run that is going on ends at that instant, if it would not before.
+EMU_API void f2812_shim_end_by(f2812_shim_t* self, emu_time_t until);
 /// After F2812_REACHED: the firmware waits, and does nothing before the queue's next event.
 EMU_API bool f2812_shim_waiting(const f2812_shim_t* self);
 /// Off: every turn of a waiting loop is executed. The same octets come at the same instants, later. On at first.

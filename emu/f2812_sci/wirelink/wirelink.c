@@ -159,10 +159,12 @@ static void walk_body(f2812_link_t* self, emu_state_t* io)
         break;
     case F2812_LINK_WIRE:
         walk_flag(io, &self->u.wire.driven);
+        walk_flag(io, &self->u.wire.answered);
         walk_text(io, self->u.wire.name, F2812_LINK_NAME);
         break;
     case F2812_LINK_RUN:
         walk_instant(io, &self->u.run.until);
+        walk_instant(io, &self->u.run.answer);
         walk_edges(io, &self->u.run.count, self->u.run.edges);
         break;
     case F2812_LINK_PEEK:

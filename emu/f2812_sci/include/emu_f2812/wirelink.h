@@ -9,7 +9,7 @@
 /// One message is one packet of a SOCK_SEQPACKET socket: an octet for its kind, then the members of its struct in their order, little
 /// endian, arrays and text with their length before them. The program is as new as the run: HELLO carries the version, and any other is
 /// refused. A window: every edge of RUN is after the instant that was reached, and none after `until`; when DONE comes, all edges up to
-/// `reached` are out.
+/// `reached` are out. What the program sends may come back to it as an answer; `answer` is the least time that takes.
 /// SPDX-License-Identifier: MIT
 #ifndef EMU_F2812_WIRELINK_H_INCLUDED
 #define EMU_F2812_WIRELINK_H_INCLUDED
@@ -37,12 +37,14 @@ typedef struct f2812_link_t
         } start;
         struct
         {
-            bool driven; ///< the run drives it, else its edges are reported
+            bool driven;   ///< the run drives it, else its edges are reported
+            bool answered; ///< an edge may be answered: see run.answer
             char name[F2812_LINK_NAME];
         } wire;
         struct
         {
             emu_time_t until;
+            emu_time_t answer; ///< so long after the first edge of a wire that is answered the window ends, if not before
             uint16_t count;
             f2812_link_edge_t edges[F2812_LINK_EDGES]; ///< sorted by instant
         } run;
