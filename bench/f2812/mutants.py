@@ -2,9 +2,10 @@
 
     python bench/f2812/mutants.py [NAME...]
 
-Each row of mutants*.toml is one wrong line: `file` below emu/f2812_sci, the text `before` that is there once, the text `after` that takes
-its place, and the `rule` of docs/f2812.md that it breaks. The changed file is compiled and linked with the objects of test_f2812 as the
-release preset built them. A row that no longer fits, does not compile or is found by no test makes the exit code 1.
+Each table of mutants*.toml is one wrong line: `file` below emu/f2812_sci, the text `before` that is there once, the
+text `after` that takes its place, and the `rule` that it breaks, as docs/f2812.md says it. The changed file is compiled
+and linked with the objects of test_f2812 as the release preset built them. A row that no longer fits, does not compile
+or is found by no test makes the exit code 1.
 """
 
 import argparse

@@ -15,6 +15,7 @@ INCLUDES = [
     "libins/host/dds/include",
     "emu/common/include",
     "emu/8051_tlc2543/include",
+    "emu/f2812_sci/include",
 ]
 GCC = ["gcc", "-std=c11", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable", *[f"-I{ROOT / i}" for i in INCLUDES]]
 TYPES = {"double": ([], "libins.a"), "float": (["-DINS_REAL_FLOAT"], "libinsf.a")}

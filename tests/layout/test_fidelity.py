@@ -1,6 +1,7 @@
 """docs/fidelity.md and docs/f2812.md name tests, choices and switches that there are."""
 
 import re
+import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -46,6 +47,16 @@ def test_every_switch_of_the_f2812_is_on_its_page_with_its_values():
     assert len(switches) == source.count("offsetof(f2812_switches_t")
     page = {row[0].strip("`"): re.findall(r"`([^`]+)`", row[1]) for row in rows(F2812.split("## Switches")[1])}
     assert {name: re.findall(r'"([^"]+)"', values) for name, values in switches} == page
+
+
+def test_every_planted_bug_of_the_f2812_still_fits():
+    """bench/f2812/mutants.py shows that the tests find them."""
+    table = tomllib.loads((ROOT / "bench/f2812/mutants.toml").read_text(encoding="utf-8"))
+    assert len(table) >= 25
+    sources = {
+        row["file"]: (ROOT / "emu/f2812_sci" / row["file"]).read_text(encoding="utf-8") for row in table.values()
+    }
+    assert [name for name, row in table.items() if sources[row["file"]].count(row["before"]) != 1] == []
 
 
 def test_every_choice_is_named_in_the_sources():
