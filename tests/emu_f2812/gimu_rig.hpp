@@ -1,7 +1,7 @@
 // A GIMU on two wires with a receiver on each, its packets taken apart by the core.
 // SPDX-License-Identifier: MIT
 #pragma once
-#include "emu_f2812/gimu.h"
+#include "emu_f2812/gimu_part.h"
 #include "ins/gimu.h"
 #include "ins_truth/elementary.h"
 #include "ins_truth/gps.h"

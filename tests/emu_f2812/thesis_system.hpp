@@ -6,7 +6,7 @@
 #ifndef INS_TESTS_THESIS_SYSTEM_HPP
 #define INS_TESTS_THESIS_SYSTEM_HPP
 #include "emu/serial.h"
-#include "emu_f2812/gimu.h"
+#include "emu_f2812/gimu_part.h"
 #include "ins/quat.h"
 #include "ins_nav/nav_input.h"
 #include "shim.h"

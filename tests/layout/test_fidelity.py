@@ -53,10 +53,9 @@ def test_every_planted_bug_of_the_f2812_still_fits():
     """bench/f2812/mutants.py shows that the tests find them."""
     table = tomllib.loads((ROOT / "bench/f2812/mutants.toml").read_text(encoding="utf-8"))
     assert len(table) >= 25
-    sources = {
-        row["file"]: (ROOT / "emu/f2812_sci" / row["file"]).read_text(encoding="utf-8") for row in table.values()
-    }
-    assert [name for name, row in table.items() if sources[row["file"]].count(row["before"]) != 1] == []
+    room = ROOT / "emu/f2812_sci"
+    texts = {file: (room / file).read_text(encoding="utf-8") for file in {row["file"] for row in table.values()}}
+    assert [name for name, row in table.items() if texts[row["file"]].count(row["before"]) != 1] == []
 
 
 def test_every_choice_is_named_in_the_sources():

@@ -265,7 +265,7 @@ void bind_gps(nb::module_& m)
 void bind_part(nb::module_& m)
 {
     using Gimu = gimu_config_t;
-    nb::class_<Gimu>(m, "Gimu", "The thesis's sensor; see emu_f2812/gimu.h.")
+    nb::class_<Gimu>(m, "Gimu", "The thesis's sensor; see emu_f2812/gimu_part.h.")
         .def(
             "set",
             [](Gimu& self, const std::string& key, const std::array<double, GIMU_CHANNELS>& values)

@@ -1,8 +1,8 @@
 /// \file   net_gimu.hpp
-/// \brief  The GIMU of the 2006 thesis as a station, on a trajectory and with a GPS receiver; see emu_f2812/gimu.h, ins_truth/track.h.
+/// \brief  The GIMU of the 2006 thesis as a station, on a trajectory and with a GPS receiver; see emu_f2812/gimu_part.h, ins_truth/track.h.
 /// SPDX-License-Identifier: MIT
 #pragma once
-#include "emu_f2812/gimu.h"
+#include "emu_f2812/gimu_part.h"
 #include "ins_truth/gps.h"
 #include "net_station.hpp"
 #include <array>

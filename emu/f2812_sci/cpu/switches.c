@@ -1,6 +1,6 @@
 /// What an F2812 is made with, by name.
 /// SPDX-License-Identifier: MIT
-#include "emu_f2812/config.h"
+#include "emu_f2812/f2812_config.h"
 #include <stddef.h>
 #include <string.h>
 
@@ -44,9 +44,9 @@ const char* f2812_switch_set(f2812_switches_t* self, const char* name, const cha
                 return NULL;
             }
         }
-        return "this switch has no such value (its values are in emu_f2812/config.h and docs/f2812.md)";
+        return "this switch has no such value (its values are in emu_f2812/f2812_config.h and docs/f2812.md)";
     }
-    return "there is no such switch (they are in emu_f2812/config.h and docs/f2812.md)";
+    return "there is no such switch (they are in emu_f2812/f2812_config.h and docs/f2812.md)";
 }
 
 void f2812_default_config(f2812_config_t* config)

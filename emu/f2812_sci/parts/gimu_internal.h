@@ -3,7 +3,7 @@
 /// SPDX-License-Identifier: MIT
 #ifndef EMU_F2812_GIMU_INTERNAL_H_INCLUDED
 #define EMU_F2812_GIMU_INTERNAL_H_INCLUDED
-#include "emu_f2812/gimu.h"
+#include "emu_f2812/gimu_part.h"
 #include <stddef.h>
 
 #define GIMU_PI        3.14159265358979323846

@@ -10,7 +10,7 @@
 #include "../periph/clock.h"
 #include "emu/sched.h"
 #include "emu/wire.h"
-#include "emu_f2812/config.h"
+#include "emu_f2812/f2812_config.h"
 
 #define SCI_FIFO      16u ///< words
 #define SCI_REGISTERS 16u ///< words of address space

@@ -27,7 +27,7 @@ static const char usage[] =
     "to OUT\n"
     "  --host-at-s S             when hosts begin to send (0.1)\n"
     "  --log FILE                each access of a register and each interrupt, as lines\n"
-    "  --switch NAME=VALUE       a switch of emu_f2812/config.h\n"
+    "  --switch NAME=VALUE       a switch of emu_f2812/f2812_config.h\n"
     "  --osc-hz HZ               crystal (30e6)\n"
     "  --no-skip                 execute each turn of waiting loops\n"
     "  --strict                  exit status 3 if the firmware did something wrong\n"

@@ -18,7 +18,7 @@
 #define EMU_F2812_F2812_H_INCLUDED
 #include "emu/sched.h"
 #include "emu/wire.h"
-#include "emu_f2812/config.h"
+#include "emu_f2812/f2812_config.h"
 #ifdef __cplusplus
 extern "C" {
 #endif

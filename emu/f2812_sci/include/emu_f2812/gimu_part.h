@@ -1,4 +1,4 @@
-/// \file   emu_f2812/gimu.h
+/// \file   emu_f2812/gimu_part.h
 /// \brief  The GIMU of the 2006 thesis (section 4.1) as a part on a line: MMA7260Q, two IDG-1004, 12-bit converter, GPS module,
 ///         packets on pin T, NMEA on pin R.
 ///
@@ -16,8 +16,8 @@
 /// so config.motion is asked for instants up to 23 time constants before a sample.
 /// Numbers and their sources: docs/gimu_part.md.
 /// SPDX-License-Identifier: MIT
-#ifndef EMU_F2812_GIMU_H_INCLUDED
-#define EMU_F2812_GIMU_H_INCLUDED
+#ifndef EMU_F2812_GIMU_PART_H_INCLUDED
+#define EMU_F2812_GIMU_PART_H_INCLUDED
 #include "emu/serial.h"
 #include "emu/ticker.h"
 #ifdef __cplusplus
@@ -124,4 +124,4 @@ EMU_API bool gimu_init(gimu_t* self, const gimu_config_t* config, emu_sched_t* s
 #ifdef __cplusplus
 }
 #endif
-#endif // EMU_F2812_GIMU_H_INCLUDED
+#endif // EMU_F2812_GIMU_PART_H_INCLUDED

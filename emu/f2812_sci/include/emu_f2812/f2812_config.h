@@ -1,10 +1,10 @@
-/// \file   emu_f2812/config.h
+/// \file   emu_f2812/f2812_config.h
 /// \brief  What an F2812 is made with: the crystal, and a switch for each thing that TI's papers leave open or contradict.
 ///
 /// A switch that is 0 is at its default, the one that firmware in the field needs. docs/f2812.md names source and test of each.
 /// SPDX-License-Identifier: MIT
-#ifndef EMU_F2812_CONFIG_H_INCLUDED
-#define EMU_F2812_CONFIG_H_INCLUDED
+#ifndef EMU_F2812_F2812_CONFIG_H_INCLUDED
+#define EMU_F2812_F2812_CONFIG_H_INCLUDED
 #include "emu/report.h"
 #ifdef __cplusplus
 extern "C" {
@@ -139,4 +139,4 @@ EMU_API void f2812_default_config(f2812_config_t* config);
 #ifdef __cplusplus
 }
 #endif
-#endif // EMU_F2812_CONFIG_H_INCLUDED
+#endif // EMU_F2812_F2812_CONFIG_H_INCLUDED
