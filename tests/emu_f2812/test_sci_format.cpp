@@ -90,7 +90,7 @@ TEST(sci_baud, a_frame_at_f3h_lasts_520_5_us)
 /// SCICLK runs on from the write of BRR: a frame begins at one of its edges, the first after the write of SCITXBUF.
 TEST(sci_baud, sciclk_runs_freely_and_a_frame_begins_with_it)
 {
-    for (const uint64_t wait : {0, 1, 100, 243, 244, 245, 5000})
+    for (const unsigned wait : {0u, 1u, 100u, 243u, 244u, 245u, 5000u})
     {
         sci_rig sci;
         sci.ticks(77);

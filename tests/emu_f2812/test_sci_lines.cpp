@@ -28,7 +28,7 @@ struct autobaud : sci_rig
 
 TEST(sci_autobaud, a_and_lower_a_set_brr_abd_and_txint_and_are_received)
 {
-    for (const unsigned octet : {'A', 'a'})
+    for (const unsigned octet : {0x41u, 0x61u})
     {
         for (const double baud : {300.0, 9600.0, 19200.0, 38400.0, 115200.0})
         {
