@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from conftest import ROOT, timeless
+from f2812_kit import CARELESS, build
 from vcdvcd import VCDVCD
 
 SCENARIO = ROOT / "emu/f2812_sci/scenarios/echo.toml"
@@ -167,6 +168,18 @@ def test_report(ins, tmp_path):
     text = page.read_text(encoding="utf-8")
     assert "On the lines" in text and "register accesses" in text and ">65<" in text  # 'e'
     assert "board = &#34;f2812&#34;" in text
+
+
+def test_strict_and_the_kinds_of_reports(ins, tmp_path):
+    program = build(CARELESS, tmp_path)
+    options = ("--stop-s", 0.01, "--junit", tmp_path / "j.xml")
+    assert ins("run", program, *options).returncode == 0
+    done = ins("run", program, *options, "--strict")
+    assert done.returncode == 3, done.stdout + done.stderr
+    assert "guest_error: " in done.stdout and "(0x7021), 1 times, first at 0.0000" in done.stdout
+    assert "not_modelled: " in done.stdout and "(0x7100)" in done.stdout
+    text = (tmp_path / "j.xml").read_text(encoding="utf-8")
+    assert 'failures="2"' in text and "0x7021" in text
 
 
 @pytest.mark.parametrize("option", [("--itrace", "i.txt"), ("--profile", "-"), ("--lcov", "l.info")])

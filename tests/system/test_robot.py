@@ -69,3 +69,38 @@ def test_what_is_wrong_fails_and_says_why(image, tmp_path):
     assert code == len(FAILING)
     for name, (_, text) in FAILING.items():
         assert text in messages[name], name
+
+
+F2812 = """*** Settings ***
+Library    libins.robot
+*** Test Cases ***
+Echoes On Its Port
+    Create Machine    firmware=echo.f2812
+    Start Emulation
+    Create Terminal Tester    sysbus.scia    timeout=0.5
+    Wait For Line On Uart    echo ready
+    Write To Uart    x
+    ${read} =    Run Until Register Access    SCIRXBUFA    read
+    Should Be Equal As Integers    ${read}[value]    ${{ ord("x") }}
+    Wait For Prompt On Uart    x
+    ${brr} =    Get Register    SCILBAUDA
+    Should Be Equal As Integers    ${brr}    ${{ 487 & 255 }}
+Reads No Variables
+    Create Machine    echo
+    Start Emulation
+    Get Variable    sampled
+Has No Such Port
+    Create Machine    echo
+    Create Terminal Tester    scic
+    Start Emulation
+    Write To Uart    x
+"""
+
+
+def test_a_board_with_an_f2812(tmp_path):
+    suite = tmp_path / "f2812.robot"
+    suite.write_text(F2812, encoding="utf-8")
+    code, messages = robot(suite, Path("none"), tmp_path)
+    assert code == 2 and messages["Echoes On Its Port"] == ""
+    assert "compiled for this machine" in messages["Reads No Variables"]
+    assert "scic: this board has the UARTs scia" in messages["Has No Such Port"]

@@ -316,6 +316,13 @@ class F2812Board(Bench):
             self.machine.add_fault(fault, tables.seed, len(self.machine.fault_hits()), self.now_s)
 
 
+def is_f2812(name: str) -> bool:
+    """Whether a scenario or program is for this board, by its file. Raises UsageError."""
+    path = find(name)
+    is_scenario = path.suffix == ".toml" and path.is_file()
+    return path.suffix == net_scenario.PROGRAM or (is_scenario and net_scenario.is_net(Document(path)))
+
+
 def _loaded(
     scenario_file: str | Path | None, firmware: str | Path | None, keys: Mapping[str, Any]
 ) -> net_scenario.NetScenario:

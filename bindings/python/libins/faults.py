@@ -107,7 +107,7 @@ def acquisition(ram_octets: int) -> Target:
 
 
 F2812 = Target(F2812_KINDS, F2812_NETS, ", ".join(F2812_LINES), lines=F2812_LINES, why=NO_MEMORY)
-HOST = Target(HOST_KINDS, "", "", why="a host has a baud that may be off")
+HOST = Target(HOST_KINDS, "", "", why="a host and a GIMU have a baud that may be off")
 
 
 def check(document: Document, faults: Sequence[Fault], target: Target) -> None:

@@ -12,6 +12,8 @@ from libins.machine import Array, accuracy, config_of, gyro_of, link_of, motion_
 from libins.net_scenario import NetScenario, candidates, opposite
 from libins.net_tables import HOST_BAUD, AcquisitionBoard, F2812Board, Host, Line
 from libins.net_vcd import Wire
+from libins.score import solved
+from libins.sensors import gimu_of, gps_of, track_of
 
 Records = list[tuple[int, int, int, int]]
 """Instant [ps], what (registers.KINDS), address or vector, value."""
@@ -22,7 +24,6 @@ CUT_UP = "skipped"
 """A count of the process that depends on how far the run went at a time."""
 
 HOST_COUNTS = ("octets_sent", "octets_received", "framing_errors", "false_starts", "overflow")
-SOLUTION = {name: i for i, name in enumerate(_run.SOLUTION_COLUMNS)}
 
 
 @contextlib.contextmanager
@@ -46,6 +47,8 @@ class NetMachine:
         self._tables = scenario.tables
         self._acquisition: dict[str, Any] = {}
         self._lines: list[int] = []
+        self._track: Any = None
+        self._gimu_bauds: dict[str, float] = {}
         self._states: dict[str, list[Array]] = {}
         """Of each navigator."""
         self.traced: list[Wire] = []
@@ -53,6 +56,7 @@ class NetMachine:
             self.net: Any = _run.Net(seed)
             for board in self._tables.board:
                 self._add_board(board, seed)
+            self._add_gimus(seed)
             for host in self._tables.host:
                 self._add_host(host, seed, host.name in outside)
             for line in self._tables.line:
@@ -76,6 +80,15 @@ class NetMachine:
         six = board.kind == "8051_tlc2543_six"
         config = config_of(board, scenario.images[board.name], scenario.volts[board.name], six, seed)
         self._acquisition[board.name] = self.net.acq(board.name, config, motion_of(scenario), gyro)
+
+    def _add_gimus(self, seed: int) -> None:
+        """All on the one track, each with noise of its own."""
+        self._track = track_of(self.scenario) if self._tables.gimu else None
+        gps = gps_of(self._tables.gps, seed)
+        for number, gimu in enumerate(self._tables.gimu):
+            made = gimu_of(gimu, seed + number)
+            self._gimu_bauds |= {f"{gimu.name}.T": made.baud, f"{gimu.name}.R": made.nmea_baud}
+            self.net.gimu(gimu.name, made, self._track, gps)
 
     def _add_host(self, host: Host, seed: int, outside: bool) -> None:
         if host.mode == "octets" or outside:
@@ -102,8 +115,8 @@ class NetMachine:
         self._lines.append(self.net.line(a, b, baud, delay_s, line.bit_error, line.octet_loss, cuts_s))
 
     def _baud(self, line: Line) -> float:
-        """Of the line, or of the host on it."""
-        bauds = {host.name: host.baud for host in self._tables.host}
+        """Of the line, or of the host or sensor on it."""
+        bauds = {host.name: host.baud for host in self._tables.host} | self._gimu_bauds
         return line.baud or next((bauds[end] for end in line.ends if end in bauds), HOST_BAUD)
 
     def _trace(self, board: F2812Board | AcquisitionBoard) -> None:
@@ -211,7 +224,7 @@ class NetMachine:
         states = np.concatenate([np.empty((0, len(self._columns(host)))), *self._states[host]])
         counters = self.net.host_counters(host)
         if keys.mode == "nav":
-            return {"link": blocks_of(counters), **position_of(states)}
+            return {"link": blocks_of(counters), **solved(states, self._track)}
         line = next(i for i, line in enumerate(self._tables.line) if host in line.ends)
         run = self._acquisition[opposite(self._tables, keys)]
         counters |= run.counters() | counters | self.net.line_counters(self._lines[line])
@@ -230,6 +243,7 @@ class NetMachine:
         return {
             **(boards[self.boards[0]] if self.scenario.flat else {"boards": boards}),
             "hosts": {name: {key: counts[key] for key in HOST_COUNTS} for name, counts in hosts.items()},
+            **({"gimus": {g.name: self.net.gimu_counters(g.name) for g in self._tables.gimu}} if self._track else {}),
             "lines": [self.net.line_counters(line) for line in self._lines],
         }
 
@@ -271,10 +285,3 @@ def blocks_of(c: Mapping[str, int]) -> dict[str, int]:
     kinds = ("duplicates", "corrupt", "timeouts", "stray", "invalid")
     retried = c["duplicates"] + c["corrupt"] + c["timeouts"]
     return {"ok": c["accepted"], "retried": retried, "lost": c["lost"], **{key: c[key] for key in kinds}}
-
-
-def position_of(states: Array) -> dict[str, Any]:
-    """The summary's `solution`: the last one's members by their columns; None without any."""
-    if not len(states):
-        return {"solution": None}
-    return {"solution": {name: float(states[-1, i]) for name, i in SOLUTION.items()}}

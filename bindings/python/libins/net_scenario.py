@@ -55,7 +55,7 @@ NO_STATE = (
     "this needs the 8051 board: firmware for the F2812 is compiled for this machine, so there is no instruction to "
     "stop at, no snapshot and no step back; ins run and F2812Board take it, with --access-log and breaks on registers"
 )
-ENDS = {F2812: tuple(PORTS.values()), "gimu": ("T", "NMEA"), "host": (), "acquisition": ("UART",)}
+ENDS = {F2812: tuple(PORTS.values()), "gimu": ("T", "R"), "host": (), "acquisition": ("UART",)}
 """Names of the ends that lines may be tied to, of each kind of station; a host is an end itself."""
 ELF = b"\x7fELF"
 
@@ -240,7 +240,8 @@ def _check_faults(document: Document, tables: Many) -> None:
 
 def targets_of(tables: Many) -> dict[str, faults.Target]:
     """What may break, by station."""
-    targets = {host.name: faults.HOST for host in tables.host}
+    talkers: list[Host | Gimu] = [*tables.host, *tables.gimu]
+    targets = dict.fromkeys((each.name for each in talkers), faults.HOST)
     for board in tables.board:
         if isinstance(board, F2812Board):
             targets[board.name] = faults.F2812
@@ -257,7 +258,7 @@ def candidates(tables: Many, fault: faults.Fault) -> list[str]:
 def station_of(document: Document, place: Place, fault: faults.Fault, tables: Many) -> str:
     """Who has a fault: the one named, or the one there is. Raises UsageError."""
     there = candidates(tables, fault)
-    known = [station.name for station in (*tables.board, *tables.host)]
+    known = list(targets_of(tables))
     if fault.station is None and len(there) != 1:
         raise document.refuse((*place, "station"), f"is missing; one of {', '.join(known)} is needed")
     if fault.station is not None and fault.station not in known:

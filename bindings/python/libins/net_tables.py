@@ -136,7 +136,7 @@ def spread(single: Single) -> tuple[Many, Places]:
         if port.to == "open":
             continue
         mine = f"{DSP}.{sci}"
-        far = {"host": sci.lower(), "gimu": f"{GIMU}.T", "nmea": f"{GIMU}.NMEA", "loop": mine}[port.to]
+        far = {"host": sci.lower(), "gimu": f"{GIMU}.T", "nmea": f"{GIMU}.R", "loop": mine}[port.to]
         place: Place = ("sci", letter)
         if port.to == "host":
             hosts.append(Host(name=far, baud=port.baud or HOST_BAUD, mode=port.mode or "octets"))

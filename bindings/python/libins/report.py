@@ -52,15 +52,18 @@ def text(summary: dict[str, Any]) -> str:
         counted = f"{host['octets_sent']} octets sent, {host['octets_received']} received"
         lines.append(f"{name:9} {counted}, {host['framing_errors']} framing errors")
     if (link := summary["link"]) is not None:
-        corrupt = link["corrupt_accepted"]
+        sampled = f"{link['sent']} sampled, " if "sent" in link else ""
+        corrupt = link.get("corrupt_accepted")
         lines.append(
-            f"link      {link['sent']} sampled, {link['ok']} accepted, {link['retried']} retried, {link['lost']} lost"
+            f"link      {sampled}{link['ok']} accepted, {link['retried']} retried, {link['lost']} lost"
             + (f", {corrupt} corrupt accepted" if corrupt is not None else "")
         )
     if (attitude := summary["attitude"]) is not None:
         for kind in ("rms", "max"):
             values = ", ".join(f"{axis} {attitude[f'{kind}_rad'][axis]:.2e}" for axis in AXES)
             lines.append(f"error     {kind} [rad]: {values}")
+    if (position := summary.get("position")) is not None:
+        lines.append(f"position  rms {position['rms_m']:.2f} m, max {position['max_m']:.2f} m")
     if (age := summary["age_s"]) is not None:
         lines.append(f"age       {age['min'] * 1e3:.2f} to {age['max'] * 1e3:.2f} ms from the sample to the attitude")
     if summary["dds"] is not None:

@@ -27,6 +27,10 @@ SLICE_S = 0.1
 PACED_SLICE_S = 0.001
 INSIDE = ("link.", "attitude.", "age_s.")
 """Values that need the navigator inside the run; with a host outside, expectations on them are not judged."""
+NO_SOLUTIONS = (
+    "--dds publishes what a navigator makes of codes; of a board that navigates itself, tie the host to a pty by "
+    "--serial and let ins-navd --input nav publish"
+)
 BOUNDS = ("at_least", "at_most")
 
 
@@ -120,6 +124,8 @@ def execute(scenario: Loaded, options: Options) -> Result:
 
 def _execute(scenario: Loaded, options: Options, machine: Machine, seed: int, stop_s: float) -> Result:
     tables = scenario.tables
+    if options.publish is not None and machine.navigates and list(machine.columns) != list(COLUMNS):
+        raise UsageError(f"{scenario.path}: {NO_SOLUTIONS}")
     if options.watch is not None:
         options.watch.begin(machine.subject)
     speed = options.speed if not options.endpoints or options.speed is not None else 1.0
@@ -147,7 +153,7 @@ def _execute(scenario: Loaded, options: Options, machine: Machine, seed: int, st
             options.trace(machine.wires, edges)
         if options.watch is not None:
             options.watch.slice(machine.subject, edges)
-        if options.publish is not None and list(machine.columns) == list(COLUMNS):
+        if options.publish is not None:
             for state in raw:
                 options.publish(state)
                 published += 1

@@ -49,7 +49,7 @@ class Track:
 class Gps:
     """The receiver's errors."""
 
-    preset: str = field("ideal", choices=("ideal", "single_frequency"))
+    preset: str = field("ideal", choices=("ideal", "single_frequency", "none"))
     latency_s: float | None = field(None, minimum=0.0, maximum=10.0)
     white_m: list[float] | None = field(None, minimum=0.0)
     markov_m: list[float] | None = field(None, minimum=0.0)
@@ -72,15 +72,15 @@ class Gimu:
     scale_error: list[float] | None = field(None)
     sensitivity: list[float] | None = field(None)
     bandwidth_hz: list[float] | None = field(None, minimum=0.0)
-    noise_v_rthz: list[float] | None = field(None, minimum=0.0)
+    noise_density: list[float] | None = field(None, minimum=0.0)
     vcc_v: float | None = field(None, minimum=3.0, maximum=3.6)
     power_up_s: float | None = field(None, minimum=0.0, maximum=1e6)
     clock_ppm: float | None = field(None, minimum=-1e5, maximum=1e5)
     baud: float | None = field(None, minimum=50.0, maximum=4e6)
     nmea_baud: float | None = field(None, minimum=50.0, maximum=4e6)
     nmea_delay_s: float | None = field(None, minimum=0.0, maximum=1.0)
-    order: str | None = field(None, choices=("longitude_first", "latitude_first"))
-    no_fix: str | None = field(None, choices=("hold_last", "zeros"))
+    order: str | None = field(None, choices=("longitude", "latitude"))
+    no_fix: str | None = field(None, choices=("last", "zeros"))
     geoid_m: float | None = field(None, minimum=-200.0, maximum=200.0)
     utc_s: int | None = field(None, minimum=0)
 

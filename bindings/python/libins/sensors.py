@@ -1,0 +1,62 @@
+"""The GPS-enabled IMU of a scenario, as the emulator takes it."""
+
+import math
+from typing import Any
+
+from libins import _run
+from libins.machine import motion_of
+from libins.net_scenario import NetScenario
+from libins.sensor_tables import Gimu, Gps, Track
+
+OF_CHANNELS = ("null_v", "drift_v_s", "scale_error", "sensitivity", "bandwidth_hz", "noise_density")
+OF_PART = ("vcc_v", "power_up_s", "baud", "nmea_baud", "nmea_delay_s", "order", "no_fix", "geoid_m", "utc_s")
+OF_GPS = ("latency_s", "white_m", "markov_m", "markov_tau_s", "velocity_m_s", "sats", "hdop", "first_fix_s")
+
+
+def track_of(scenario: NetScenario) -> Any:
+    """Where the vehicle goes. Raises ValueError."""
+    track: Track = scenario.tables.track
+    attitude = motion_of(scenario) if track.by_motion else None
+    latitude, longitude = math.radians(track.latitude_deg), math.radians(track.longitude_deg)
+    site = _run.Site(latitude, longitude, track.height_m, track.gravity, track.rotating)
+    cruise_s = math.inf if track.cruise_s is None else track.cruise_s
+    speed = (track.speed_m_s, track.start_s, track.accelerate_s, cruise_s, track.brake_s)
+    if track.kind == "line":
+        return _run.track_line(site, track.heading_rad, track.climb_rad, speed, attitude)
+    if track.kind == "circle":
+        return _run.track_circle(site, track.heading_rad, track.radius_m, speed, attitude)
+    if track.kind == "eight":
+        return _run.track_eight(site, track.heading_rad, track.length_m, track.width_m, speed, attitude)
+    if track.kind == "csv":
+        assert scenario.path_csv is not None
+        t, north, east, up = scenario.path_csv.T.tolist()
+        return _run.track_waypoints(site, t, north, east, up, attitude)
+    return _run.track_still(site, attitude)
+
+
+def gps_of(table: Gps, seed: int) -> Any:
+    """The receiver; None: never a fix."""
+    if table.preset == "none":
+        return None
+    gps = _run.gps_ideal() if table.preset == "ideal" else _run.gps_default()
+    gps.seed = seed
+    for key in OF_GPS:
+        if (value := getattr(table, key)) is not None:
+            setattr(gps, key, value)
+    gps.set_outages([(begin, end) for begin, end in table.outages_s])
+    return gps
+
+
+def gimu_of(table: Gimu, seed: int) -> Any:
+    """The part's configuration. Raises ValueError."""
+    gimu = _run.gimu_thesis() if table.preset == "thesis" else _run.gimu_ideal()
+    gimu.seed = seed
+    for key in OF_CHANNELS:
+        if (values := getattr(table, key)) is not None:
+            gimu.set(key, values)
+    for key in OF_PART:
+        if (value := getattr(table, key)) is not None:
+            setattr(gimu, key, value)
+    if table.clock_ppm is not None:
+        gimu.clock_ppb = round(table.clock_ppm * 1e3)
+    return gimu
