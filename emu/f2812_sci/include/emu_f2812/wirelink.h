@@ -22,6 +22,7 @@ extern "C" {
 typedef struct f2812_link_t
 {
     uint8_t kind;
+    /// \cond the members of each kind, which the header shows best
     union
     {
         struct
@@ -44,7 +45,8 @@ typedef struct f2812_link_t
         struct
         {
             emu_time_t until;
-            emu_time_t answer; ///< so long after the first edge of a wire that is answered the window ends, if not before
+            emu_time_t
+                answer; ///< so long after the first edge of a wire that is answered the window ends, if not before
             uint16_t count;
             f2812_link_edge_t edges[F2812_LINK_EDGES]; ///< sorted by instant
         } run;
@@ -103,6 +105,7 @@ typedef struct f2812_link_t
             char text[F2812_LINK_TEXT];
         } refused;
     } u;
+    /// \endcond
 } f2812_link_t;
 
 /// One message, saved or loaded as `io` says (emu/state.h). \return its octets; 0: what was loaded is no message, or too little room.
