@@ -30,6 +30,7 @@ function(f2812_archive library bits)
     COMMAND ${CMAKE_COMMAND} -E rm -f ${archive}
     COMMAND ${CMAKE_AR} rcs ${archive} ${objects}
     DEPENDS ${objects} COMMENT "F2812 runtime: ${library}, ${bits} bits" VERBATIM)
+  set_property(GLOBAL APPEND PROPERTY INS_F2812_ARCHIVES ${archive})
 endfunction()
 
 set(here ${CMAKE_CURRENT_SOURCE_DIR})
@@ -55,3 +56,5 @@ foreach(bits 32 64)
     COMMAND ${cc} ${strict} -DINS_REAL_FLOAT -fsanitize-coverage=trace-pc -I${here}/shim/include -I${PROJECT_SOURCE_DIR}/libins/core/include
     SOURCES ${core_sources})
 endforeach()
+get_property(archives GLOBAL PROPERTY INS_F2812_ARCHIVES)
+add_custom_target(f2812_runtime ALL DEPENDS ${archives})
