@@ -60,6 +60,7 @@ struct shim_board : rig
     std::vector<access> writes;
     std::vector<unsigned> results;
     std::vector<unsigned> vectors;
+    std::vector<emu_time_t> entered, left; ///< interrupts
     uint16_t break_at = 0;
 
     explicit shim_board(const f2812_program_t& program, bool skip = true, bool observed = true)
@@ -74,11 +75,13 @@ struct shim_board : rig
         const f2812_observer_t observer{this,
                                         [](void* ctx, uint16_t address, uint16_t value, bool write, emu_time_t at)
                                         { static_cast<shim_board*>(ctx)->accessed(address, value, write, at); },
-                                        [](void* ctx, unsigned vector, bool enter, emu_time_t)
+                                        [](void* ctx, unsigned vector, bool enter, emu_time_t at)
                                         {
+                                            auto* const self = static_cast<shim_board*>(ctx);
+                                            (enter ? self->entered : self->left).push_back(at);
                                             if (enter)
                                             {
-                                                static_cast<shim_board*>(ctx)->vectors.push_back(vector);
+                                                self->vectors.push_back(vector);
                                             }
                                         }};
         f2812_observe(dsp, observed ? &observer : nullptr);

@@ -157,23 +157,48 @@ TEST(shim, idle_waits_for_an_interrupt)
     EXPECT_LT(f2812_shim_stats(b.shim)->blocks, 500u);
 }
 
+namespace
+{
+/// SYSCLKOUT is OSCCLK / 2 = 15 MHz as long as the PLL is left alone.
+uint64_t cycles(emu_time_t from, emu_time_t to)
+{
+    return static_cast<uint64_t>((to - from + 33333) * 15 / 1000000);
+}
+} // namespace
+
 TEST(shim, each_piece_takes_the_cycles_that_are_written_down)
 {
     const case_board b(CASE_COST);
-    std::vector<uint64_t> cycles;
+    std::vector<uint64_t> spent;
     emu_time_t last = 0;
     for (const auto& w : b.writes)
     {
         if (w.address == shim_board::RESULT)
         {
-            cycles.push_back(static_cast<uint64_t>((w.at - last) * 15 / 1000000)); // OSCCLK / 2
+            spent.push_back(cycles(last, w.at));
             last = w.at;
         }
     }
-    ASSERT_EQ(cycles.size(), 5u);
-    EXPECT_EQ(cycles[1], 2u + 1u) << "access, NOP";
-    EXPECT_EQ(cycles[2], 2u + 9u + 5u * 100u) << "access, DSP28x_usDelay(100)";
-    EXPECT_GE(cycles[3], 2u + 10u * 4u) << "access, ten turns";
-    EXPECT_GE(cycles[4], 2u + 1u + 100u) << "access, the statement, RPT #99 || NOP";
-    EXPECT_LE(cycles[4], 2u + 1u + 100u + 4u) << "and a block at most";
+    // Each from a store of a register to the next: 2 for that one, and a block where the compiler made one.
+    const uint64_t access = 2, block = 4, turn = 4;
+    ASSERT_EQ(spent.size(), 7u);
+    EXPECT_EQ(spent[1], access + 1) << "NOP";
+    EXPECT_EQ(spent[2], access + 9 + 5 * 100) << "DSP28x_usDelay(100)";
+    EXPECT_EQ(spent[3], access + 10 * turn + 11 * block) << "ten turns, a block each, one behind";
+    EXPECT_EQ(spent[4], access + 1 + 100) << "RPT #99 || NOP";
+    EXPECT_EQ(spent[5], access + 20) << "rand()";
+    EXPECT_EQ(spent[6], access + 1) << "a variable";
+}
+
+TEST(shim, an_interrupt_takes_14_cycles_and_its_return_8)
+{
+    const case_board b(CASE_INTERRUPT_COST);
+    ASSERT_EQ(b.results.size(), 1u);
+    ASSERT_EQ(b.entered.size(), 1u);
+    ASSERT_EQ(b.left.size(), 1u);
+    const auto told =
+        std::find_if(b.writes.begin(), b.writes.end(), [](const auto& w) { return w.address == shim_board::RESULT; });
+    const uint64_t access = 2, block = 4;
+    EXPECT_EQ(cycles(b.entered[0], told->at), 14 + block + access);
+    EXPECT_EQ(cycles(told->at, b.left[0]), access + 8) << "PIEACK, and the return";
 }

@@ -111,11 +111,17 @@ static inline void writing(uintptr_t at, unsigned words)
     }
 }
 
+/// Whether there is a register, or the vector table: other variables lie between the objects.
+static inline bool is_register(const f2812_shim_t* self, uintptr_t at)
+{
+    return at - self->base < self->span && self->map[(at - self->base) / 2] != F2812_MAP_NONE;
+}
+
 /// An access of an object that is not volatile: registers all the same, when firmware has cast that away.
 static inline void touching(uintptr_t at, unsigned words)
 {
     f2812_shim_debt += F2812_CYCLES_MEMORY;
-    if (at - f2812_shim_current->base < f2812_shim_current->span)
+    if (is_register(f2812_shim_current, at))
     {
         reading(at, words);
     }
@@ -126,7 +132,7 @@ static inline void changing(uintptr_t at, unsigned words)
     f2812_shim_debt += F2812_CYCLES_MEMORY;
     f2812_shim_changes++;
     f2812_shim_current->midway = false;
-    if (at - f2812_shim_current->base < f2812_shim_current->span)
+    if (is_register(f2812_shim_current, at))
     {
         writing(at, words);
     }
@@ -208,7 +214,7 @@ HOOK void __tsan_read_range(const void* at, unsigned long octets);
 HOOK void __tsan_read_range(const void* at, unsigned long octets)
 {
     f2812_shim_debt += F2812_CYCLES_MEMORY * (uint32_t)(octets / 2);
-    if ((uintptr_t)at - f2812_shim_current->base < f2812_shim_current->span)
+    if (is_register(f2812_shim_current, (uintptr_t)at))
     {
         reading((uintptr_t)at, (unsigned)(octets / 2));
     }
@@ -219,7 +225,7 @@ HOOK void __tsan_write_range(void* at, unsigned long octets)
 {
     f2812_shim_debt += F2812_CYCLES_MEMORY * (uint32_t)(octets / 2);
     f2812_shim_changes++;
-    if ((uintptr_t)at - f2812_shim_current->base < f2812_shim_current->span)
+    if (is_register(f2812_shim_current, (uintptr_t)at))
     {
         writing((uintptr_t)at, (unsigned)(octets / 2));
     }

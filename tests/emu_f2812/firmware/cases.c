@@ -260,6 +260,23 @@ static void cost(void)
     tell(3);
     asm(" RPT #99 || NOP");
     tell(4);
+    (void)rand();
+    tell(5);
+    plain = 1;
+    tell(6);
+}
+
+static interrupt void tell_isr(void)
+{
+    tell(1);
+    PieCtrlRegs.PIEACK.all = PIEACK_GROUP1;
+}
+
+static void interrupt_cost(void)
+{
+    every(5000, &tell_isr);
+    EINT;
+    DSP28x_usDelay(1500);
 }
 
 void main(void)
@@ -326,6 +343,9 @@ void main(void)
         break;
     case CASE_COST:
         cost();
+        break;
+    case CASE_INTERRUPT_COST:
+        interrupt_cost();
         break;
     default: // after the watchdog, or about to meet it
         tell(begun);
