@@ -173,7 +173,7 @@ void Net::find_earliest(size_t silent)
     for (size_t i = 0; i < stations_.size(); i++)
     {
         Station& s = *stations_[i];
-        const emu_time_t changes = std::max(s.now() + 1, s.faults().next());
+        const emu_time_t changes = std::max(s.told_until() + 1, s.faults().next());
         earliest_[i] =
             i == silent ? EMU_TIME_MAX : std::min({s.silent_until(), changes, plus(s.arrival(), s.reaction())});
     }
@@ -326,7 +326,11 @@ std::vector<TracedEdge> Net::take_edges()
     const auto before = [](const TracedEdge& a, const TracedEdge& b)
     { return a.at < b.at || (a.at == b.at && a.wire < b.wire); };
     std::stable_sort(edges_.begin(), edges_.end(), before);
-    const emu_time_t here = now();
+    emu_time_t here = EMU_TIME_MAX;
+    for (const auto& station : stations_)
+    {
+        here = std::min(here, station->told_until());
+    }
     const auto later =
         std::partition_point(edges_.begin(), edges_.end(), [&](const TracedEdge& e) { return e.at <= here; });
     std::vector<TracedEdge> taken(edges_.begin(), later);

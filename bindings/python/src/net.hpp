@@ -59,7 +59,7 @@ class Net
     const Station* stopped() const { return stopped_; }
     /// Where the last of them is.
     emu_time_t now() const;
-    /// Edges of all traces up to now(), by instant and trace.
+    /// Edges of all traces, by instant and trace, up to where no station has more to tell.
     std::vector<TracedEdge> take_edges();
     /// Kind of each fault and how often it has acted, in the order they were added; station: of its own alone, empty: of all.
     std::vector<std::pair<const char*, uint64_t>> fault_hits(const std::string& station);

@@ -4,6 +4,7 @@
 #pragma once
 #include "net_station.hpp"
 #include "run.hpp"
+#include <algorithm>
 
 namespace libins
 {
@@ -15,6 +16,8 @@ class AcqStation final : public LocalStation
     AcqStation(std::string name, RunConfig config, std::shared_ptr<ins_motion_t> motion, const ins_gyro_config_t& gyro);
 
     emu_time_t now() const override { return run_->now(); }
+    /// What happened within the last instruction comes with the next.
+    emu_time_t told_until() const override { return std::max<emu_time_t>(0, now() - overshoot()); }
     /// An instruction is not broken off.
     emu_time_t overshoot() const override;
     void begin(emu_time_t goal) override;

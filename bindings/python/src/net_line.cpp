@@ -40,7 +40,7 @@ void Channel::carry()
         emu_sched_advance(&sched_, edge.at);
         emu_wire_drive(&from_, driver_, edge.level ? EMU_STRONG1 : EMU_STRONG0, edge.at);
     }
-    emu_sched_advance(&sched_, source_->now());
+    emu_sched_advance(&sched_, source_->told_until());
     if (late_) // not thrown where it is found: C is in between
     {
         throw std::logic_error("an edge from " + source_->name() + " came to " + destination_->name() +

@@ -29,7 +29,7 @@ class Channel
     Channel(const Channel&) = delete;
     Channel& operator=(const Channel&) = delete;
 
-    /// Up to the source's instant.
+    /// Up to what the source has told.
     void carry();
     Station& source() const { return *source_; }
     Station& destination() const { return *destination_; }

@@ -50,10 +50,11 @@ class Station
     Station(const Station&) = delete;
     Station& operator=(const Station&) = delete;
 
-    /// All that left up to then is in the ports' `left`.
     virtual emu_time_t now() const = 0;
-    /// Nothing leaves before that instant, unless something comes in or a fault begins.
-    virtual emu_time_t silent_until() const { return now() + 1; }
+    /// All that left up to then is in the ports' `left`, and in edges().
+    virtual emu_time_t told_until() const { return now(); }
+    /// Nothing else leaves before that instant, unless something comes in or a fault begins.
+    virtual emu_time_t silent_until() const { return told_until() + 1; }
     /// The least time from what comes in to what leaves because of it.
     virtual emu_time_t reaction() const { return 0; }
     /// How far beyond its goal it may come.
