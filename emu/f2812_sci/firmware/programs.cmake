@@ -9,5 +9,6 @@ set(thesis ${CMAKE_CURRENT_LIST_DIR}/thesis)
 set(thesis_sources ${thesis}/main.c ${thesis}/sci_gimu.c ${thesis}/sci_pc.c ${thesis}/calibrate.c ${thesis}/navigate.c ${thesis}/report.c)
 add_f2812_firmware(NAME thesis CORE SOURCES ${thesis_sources})
 add_f2812_firmware(NAME thesis CORE SOURCES ${thesis_sources} BITS 64 OBJECT)
-# As in the thesis's first experiments: no nulls, no GPS.
+# As in the thesis's first experiments, without GPS: with nulls, and without.
+add_f2812_firmware(NAME thesis_ins CORE SOURCES ${thesis_sources} DEFINES THESIS_FILTER=0 THESIS_LEVEL=0)
 add_f2812_firmware(NAME thesis_raw CORE SOURCES ${thesis_sources} DEFINES THESIS_NULLS=NULL_NONE THESIS_FILTER=0 THESIS_LEVEL=0)

@@ -242,7 +242,7 @@ void navigation_packet(navigation_t* self, const ins_gimu_packet_t* packet, int 
 
 void navigation_block(const navigation_t* self, ins_nav_block_t* block)
 {
-    const uint32_t age = (uint32_t)self->fix_age * 10u / INS_GIMU_RATE_HZ;
+    const uint32_t age = (uint32_t)self->fix_age * 10u / INS_GIMU_RATE_HZ + (uint32_t)(THESIS_FIX_DELAY_S * 10);
     block->time_ms = self->time_ms;
     block->status = self->status;
     block->status |= self->aligned ? INS_NAV_BLOCK_ALIGNED : 0;
