@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 
 from libins import _run
 
@@ -73,3 +74,11 @@ def test_a_noisy_line_costs_time_and_no_truth() -> None:
     assert len(noisy) > 0.9 * len(clean)
     differ = [s for s in noisy if not np.array_equal([s[n] for n in names], want.get(s["t_s"]))]
     assert len(differ) <= counters["corrupt"] / 100, "a wrong block passes the sum once in 256 at most"
+
+
+@pytest.mark.parametrize("name", ["thesis", "thesis_rest", "thesis_rest_raw", "thesis_turns"])
+def test_the_experiments_are_scenarios_that_hold(name: str, summary: Any) -> None:
+    result = summary(ROOT / f"emu/f2812_sci/scenarios/{name}.toml", "--strict")
+    assert result["verdict"] == "pass"
+    assert result["link"]["ok"] > 500
+    assert result["reports"] == []
