@@ -5,6 +5,7 @@
 #ifndef INS_REAL_FLOAT
 #include "emu/trace.h"
 #include "emu_8051/acq_board.h"
+#include "emu_f2812/f2812.h"
 #include "ins_dds/dds.h"
 #include "ins_nav/nav.h"
 #include "ins_truth/gps.h"

@@ -42,7 +42,7 @@ def blocks_of_header(text: str) -> list[str]:
     top = text.split("#ifndef", 1)[0]
     found = re.findall(r"((?:^///     .*\n)+)", top, re.MULTILINE)
     examples = ["".join(line[8:] + "\n" for line in block.splitlines()) for block in found]
-    return [example for example in examples if re.search(r"\b(ins|emu|acq_board|mcs51|tlc2543)_\w+\(", example)]
+    return [example for example in examples if re.search(r"\b(ins|emu|acq_board|mcs51|tlc2543|f2812)_\w+\(", example)]
 
 
 def headers() -> list[Path]:

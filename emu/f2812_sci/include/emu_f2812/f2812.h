@@ -1,8 +1,14 @@
 /// \file   emu_f2812/f2812.h
 /// \brief  TMS320F2812 around its CPU: registers, clock tree, watchdog, timers, GPIO, PIE and interrupt flow, both SCIs (TI SPRS174, SPRU078).
 ///
-///     f2812_write(dsp, 0x7021, 10);                  // PLLCR: 150 MHz, after 131072 OSCCLK
-///     f2812_advance(dsp, 100);                       // cycles of SYSCLKOUT that the program takes
+///     f2812_config_t config;
+///     emu_sched_t sched;
+///     f2812_default_config(&config);
+///     emu_sched_init(&sched);
+///     f2812_t* const dsp = f2812_create(&config, &sched);
+///     f2812_set_eallow(dsp, true);
+///     f2812_write(dsp, 0x7021, 10); // PLLCR: 150 MHz, after 131072 OSCCLK
+///     f2812_advance(dsp, 100);      // cycles of SYSCLKOUT that the program takes
 ///     if (f2812_interrupt_pending(dsp))
 ///     {
 ///         f2812_context_t saved;
@@ -74,7 +80,8 @@ EMU_API uint16_t f2812_peek(const f2812_t* self, uint16_t address);
 
 /// Cycles of SYSCLKOUT pass; what is due happens.
 EMU_API void f2812_advance(f2812_t* self, uint32_t cycles);
-/// The program waits: time goes on to the next event, or to `limit`. \return the instant; now, if an interrupt is pending.
+/// The program waits: time goes on to the next event, or to `limit`, EMU_TIME_LOADED_MAX at most. \return the instant; now, if an interrupt
+/// is pending.
 EMU_API emu_time_t f2812_skip(f2812_t* self, emu_time_t limit);
 /// IDLE: as f2812_skip(), up to the first interrupt that IER lets through, whatever INTM is.
 EMU_API emu_time_t f2812_idle(f2812_t* self, emu_time_t limit);
