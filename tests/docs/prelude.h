@@ -8,6 +8,7 @@
 #include "emu_f2812/f2812.h"
 #include "ins_dds/dds.h"
 #include "ins_nav/nav.h"
+#include "ins_nav/nav_input.h"
 #include "ins_truth/gps.h"
 #include "ins_truth/gyro.h"
 #include "ins_truth/motion.h"

@@ -1,10 +1,10 @@
 /// \file   ins/nav_block.h
 /// \brief  Navigation result in a block of 32 octets for the handshake: position, velocity, attitude, time. Frame: b -> n, grid. Units: SI.
 ///
+///     ins_nav_block_t told = {0};
 ///     ins_octet_t block[INS_NAV_BLOCK_LEN];
-///     ins_nav_block_put(&nav, block);                     // on the DSP
-///     ins_hs_board_offer(&board, block, seq++, now);      // cfg.block_len = INS_NAV_BLOCK_LEN, cfg.seq = 1
-///     ins_nav_block_get(host.block, &nav);                // on the PC, after INS_HS_BLOCK
+///     ins_nav_block_put(&told, block);       // on the DSP; then ins_hs_board_offer(), with block_len = INS_NAV_BLOCK_LEN and seq = 1
+///     ins_nav_block_get(block, &told);       // on the PC, of a host's block, after INS_HS_BLOCK
 ///
 /// Fixed point, high octet first, two's complement. The high nibbles of octets 0 and 2 stay 0: the handshake's number goes there.
 ///

@@ -1,9 +1,11 @@
 /// \file   ins_nav/nav_input.h
 /// \brief  The host of a navigating board: handshake octets in, its position, velocity and attitude out. Frame: b -> n, grid. Units: SI.
 ///
-///     ins_nav_input_config_t cfg;
-///     ins_nav_input_config_default(&cfg);
-///     ins_nav_input_init(&input, &cfg);
+///     ins_nav_input_t input;
+///     ins_nav_input_config_t limits;
+///     ins_nav_solution_t solution;
+///     ins_nav_input_config_default(&limits);
+///     ins_nav_input_init(&input, &limits);
 ///     while (receive(&octet))
 ///     {
 ///         if (ins_nav_input_octet(&input, octet, now_ms, &reply, &solution) == 1) { use(&solution); }
