@@ -77,6 +77,9 @@ def test_what_the_wheel_holds(wheel: Path):
     built = {f"{module}.pyi" for module in ("core", "coref", "_run")}
     images = {f"firmware/{n}{kind}" for n in IMAGES for kind in (".ihx", "_debug.ihx", "_debug.cdb")}
     scenarios = {f"scenarios/{p.name}" for p in (ROOT / "emu/8051_tlc2543/scenarios").iterdir()}
+    images |= {f"firmware/{p.name}.f2812" for p in (ROOT / "emu/f2812_sci/firmware").iterdir() if p.is_dir()}
+    images.add("firmware/thesis_raw.f2812")
+    scenarios |= {f"scenarios_f2812/{p.name}" for p in (ROOT / "emu/f2812_sci/scenarios").iterdir()}
     libraries = {n for n in names if n.endswith(".so")}
     assert {n.split(".")[0] for n in libraries} == {"core", "coref", "_run"}
     assert names - libraries == sources | built | images | scenarios | {"bin/ins-navd"}
@@ -99,6 +102,10 @@ def test_a_board_runs_in_a_bare_environment(bare: Path, tmp_path: Path):
     kept, built = (json.loads(path.read_text(encoding="utf-8")) for path in (out, here))
     assert kept["trace_sha256"] == built["trace_sha256"] and kept["attitude"] == built["attitude"]
     assert "usage: ins-navd" in run(bare / "ins", "nav", "--help", env={"PATH": ""}).replace("Usage", "usage")
+
+
+def test_a_program_of_the_f2812_runs_in_a_bare_environment(bare: Path, tmp_path: Path):
+    assert "verdict   pass" in run(bare / "ins", "run", "echo", cwd=tmp_path, env={"PATH": ""})
 
 
 def test_pytest_finds_the_plugin_by_itself(bare: Path, tmp_path: Path):

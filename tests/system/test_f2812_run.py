@@ -289,6 +289,31 @@ def test_a_program_that_ends_ends_the_run(summary, write):
     assert 0.01 < ended["sim_s"] < 60 and ended["cpu"]["interrupts"] > 0 and ended["reports"] == []
 
 
+def test_vcd_of_both_boards(ins, write, tmp_path):
+    path = tmp_path / "both.vcd"
+    done = ins("run", write(BOTH), "--vcd", path, "--stop-s", 0.1)
+    assert done.returncode == 0, done.stdout + done.stderr
+    nets = set(VCDVCD(str(path)).signals)
+    assert {"dsp.SCITXDA", "dsp.SCIRXDA", "dsp.SCITXDB", "acq.TXD", "acq.RXD"} <= nets and "dsp.SCIRXDB" not in nets
+    text = path.read_text(encoding="ascii")
+    key = re.search(r"\$var string 1 (\S+) RXD_octet \$end", text)[1]
+    answers = re.findall(rf"^s([0-9A-F]{{2}}!?) {re.escape(key)}$", text, re.MULTILINE)
+    assert set(answers) == {"BB", "00"}  # the host lets each block come and takes it
+
+
+def test_a_campaign_goes_on_after_a_program_that_dies(ins, write, tmp_path):
+    program = tmp_path / "dies.f2812"
+    program.write_bytes(Path("/bin/false").read_bytes())
+    program.chmod(0o755)
+    head = 'schema = 1\nboard = "f2812"\nfirmware = "dies.f2812"\nstop_s = 0.1\n\n[campaign]\n'
+    path = write(head + 'firmware = { list = ["dies.f2812", "echo.f2812"] }\n')
+    done = ins("campaign", path, "--runs", 4, "--jobs", 1, "--out", tmp_path / "c")
+    assert done.returncode == 1 and "2 pass, 2 crash" in done.stdout, done.stdout + done.stderr
+    rows = list(csv.DictReader((tmp_path / "c/table.csv").open(encoding="utf-8")))
+    assert [row["outcome"] for row in rows] == ["pass", "crash"] * 2
+    assert "dies.f2812" in rows[1]["error"]
+
+
 def test_campaign_with_processes_and_dask_is_the_same(ins, variant, tmp_path):
     path = variant("\n[campaign]\nsci.a.bit_error = { uniform = [0.0, 2e-3] }\nsci.a.baud = { normal = [9600, 300] }\n")
     tables = []

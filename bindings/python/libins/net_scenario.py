@@ -240,14 +240,14 @@ def _check_faults(document: Document, tables: Many) -> None:
 
 def targets_of(tables: Many) -> dict[str, faults.Target]:
     """What may break, by station."""
-    talkers: list[Host | Gimu] = [*tables.host, *tables.gimu]
-    targets = dict.fromkeys((each.name for each in talkers), faults.HOST)
+    targets: dict[str, faults.Target] = {}
     for board in tables.board:
         if isinstance(board, F2812Board):
             targets[board.name] = faults.F2812
         else:
             targets[board.name] = faults.acquisition(RAM_OCTETS[board.part])
-    return targets
+    talkers: list[Host | Gimu] = [*tables.host, *tables.gimu]
+    return targets | dict.fromkeys((each.name for each in talkers), faults.HOST)
 
 
 def candidates(tables: Many, fault: faults.Fault) -> list[str]:

@@ -1,6 +1,7 @@
 """Tables of a scenario for the GPS-enabled IMU: where it goes, what its GPS says, and what its sensors are like.
 
-Keys left out keep the preset's value. Names carry their unit; ins_truth/track.h, ins_truth/gps.h, emu_f2812/gimu_part.h.
+Keys left out keep the preset's value. Names carry their unit; see ins_truth/track.h, ins_truth/gps.h,
+emu_f2812/gimu_part.h.
 """
 
 import math
