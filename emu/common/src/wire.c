@@ -36,12 +36,8 @@ static unsigned present(uint32_t drives)
     return (drives | drives >> 4) & 15u;
 }
 
-/// Level by set of strengths; 2: as it was. Strong over weak, low over high.
-enum
-{
-    KEPT = 2
-};
-static const uint8_t resolved[] = {KEPT, 0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0};
+/// Level by set of strengths that is not empty. Strong over weak, low over high.
+static const uint8_t resolved[] = {0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0};
 
 static void set_level(emu_wire_t* self, bool level, emu_time_t at)
 {
@@ -92,7 +88,7 @@ void emu_wire_drive(emu_wire_t* self, int driver, emu_drive_t drive, emu_time_t 
     {
         settle_shorted(self, at);
     }
-    else if (level != self->level && level != KEPT)
+    else if (level != self->level && set != 0)
     {
         set_level(self, level != 0, at);
     }
