@@ -240,6 +240,36 @@ TEST(thesis_navigation, dead_reckoning_diverges_and_the_filter_does_not)
     EXPECT_LT(far_filter, 15);
 }
 
+TEST(thesis_navigation, fixes_level_the_attitude)
+{
+    for (const size_t axis : {size_t{0}, size_t{1}})
+    {
+        double tilt_deg[2];
+        for (const bool level : {false, true})
+        {
+            Rig rig(NULL_FRACTION);
+            rig.navigation.level = level;
+            rig.calibrate();
+            rig.sensor.null[axis] += 0.16; // 2 deg/min
+            for (int s = 0; s < 180; s++)
+            {
+                rig.fix();
+                for (int i = 0; i < 5; i++)
+                {
+                    rig.still();
+                }
+            }
+            float euler[3];
+            ins_quat_to_euler(rig.navigation.attitude.q_nb, euler);
+            tilt_deg[level] = std::fabs(static_cast<double>(euler[axis])) / DEG;
+        }
+        std::printf("[ figure   ] axis %zu drifts 2 deg/min for 3 min: tilt %.1f deg, levelled %.1f deg\n", axis,
+                    tilt_deg[0], tilt_deg[1]);
+        EXPECT_GT(tilt_deg[0], 3) << "axis " << axis;
+        EXPECT_LT(tilt_deg[1], 2) << "axis " << axis;
+    }
+}
+
 TEST(thesis_navigation, a_fix_far_off_is_refused_until_it_insists)
 {
     Rig rig(NULL_FRACTION);
@@ -274,6 +304,8 @@ TEST(thesis_navigation, a_moving_cars_heading_is_its_course)
     EXPECT_NEAR(static_cast<double>(euler[2]) / DEG, 90, 10)
         << "tilts of a degree or two are accelerations to this filter";
     EXPECT_NEAR(static_cast<double>(rig.block().v_en[0]), 10, 1);
+    const double since_fix = static_cast<double>(THESIS_FIX_DELAY_S) + 5.0 / 6;
+    EXPECT_NEAR(rig.block().en_cm[0] * 0.01, EASTING + 290 + 10 * since_fix, 6) << "a fix is of some time ago";
 }
 
 TEST(thesis_report, the_newest_result_replaces_one_that_waits)

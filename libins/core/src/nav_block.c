@@ -5,7 +5,6 @@
 #include "ins/ins_math.h"
 #include "ins/quat.h"
 
-#define SPARE      0xF0u            ///< high nibbles of octets 0 and 2
 #define UNIT       INS_C(8388608.0) ///< 2^23, of a quaternion's component
 #define MILLI      INS_C(1000.0)    ///< of a velocity
 #define THREE_MAX  INS_C(0.750001)  ///< the squares of the three smaller components are at most 3/4
@@ -93,8 +92,8 @@ ins_status_t ins_nav_block_get(const ins_octet_t* block, ins_nav_block_t* nav)
         q[i < largest ? i : i + 1] = c;
         sum += c * c;
     }
-    if ((block[0] & 0xFFu) >> 2 != INS_NAV_BLOCK_VERSION || (block[2] & SPARE) != 0 ||
-        (status & ~(uint32_t)INS_NAV_BLOCK_STATUS_ALL) != 0 || sum > THREE_MAX)
+    if ((block[0] & 0xFFu) >> 2 != INS_NAV_BLOCK_VERSION || (status & ~(uint32_t)INS_NAV_BLOCK_STATUS_ALL) != 0 ||
+        sum > THREE_MAX)
     {
         return INS_E_RANGE;
     }
