@@ -20,7 +20,8 @@ RUNS_BENCH = 20_000_000  # with INS_BENCH set
 SEED = 1
 LONGEST = 1024  # octets of an input
 SOURCES = {
-    "parsers": ["nmea", "gimu", "handshake_board", "handshake_host", "link_board", "link_host"],
+    "parsers": ["nmea", "gimu", "handshake_board", "handshake_host", "link_board", "link_host"]
+    + ["nav_block", "quat", "rotvec"],
     "nmea": ["nmea"],
     "attitude": ["attitude", "attitude_any", "hist2", "sculling", "sculling_any", "coning", "quat", "rotvec", "q31"],
 }

@@ -1,8 +1,9 @@
 /// \file   fuzz_parsers.c
-/// \brief  libFuzzer: handshake, extended link, GIMU and NMEA fed the same octets; each stays sound (tests/proof/sound.h).
+/// \brief  libFuzzer: handshake, extended link, GIMU, NMEA and the navigation block fed the same octets; each stays sound (tests/proof/sound.h).
 ///
 /// The first octets choose the settings; then each pair of octets is a step of time and an octet of the line.
 /// SPDX-License-Identifier: MIT
+#include "ins/nav_block.h"
 #include "sound.h"
 #include <stddef.h>
 #include <stdlib.h>
@@ -16,6 +17,23 @@ static void demand(int condition)
     if (!condition)
     {
         abort();
+    }
+}
+
+/// What is taken can be put, unless its velocity is in the last 0.6 m/s of 24 bits.
+static void nav_block(const unsigned char* data)
+{
+    ins_octet_t block[INS_NAV_BLOCK_LEN];
+    ins_nav_block_t nav;
+    for (size_t i = 0; i < INS_NAV_BLOCK_LEN; i++)
+    {
+        block[i] = data[i];
+    }
+    if (ins_nav_block_get(block, &nav) == INS_OK)
+    {
+        const int slow = nav.v_en[0] * nav.v_en[0] <= INS_NAV_BLOCK_V_MAX * INS_NAV_BLOCK_V_MAX &&
+                         nav.v_en[1] * nav.v_en[1] <= INS_NAV_BLOCK_V_MAX * INS_NAV_BLOCK_V_MAX;
+        demand(!slow || (ins_nav_block_put(&nav, block) == INS_OK && ins_nav_block_get(block, &nav) == INS_OK));
     }
 }
 
@@ -37,6 +55,10 @@ int LLVMFuzzerTestOneInput(const unsigned char* data, size_t size)
         ins_link_board_init(&link_board, &cfg) == INS_OK && ins_link_host_init(&link_host, &cfg) == INS_OK;
     ins_gimu_init(&gimu, data[3] & 1);
     ins_nmea_init(&nmea);
+    if (size >= SETTINGS + INS_NAV_BLOCK_LEN)
+    {
+        nav_block(data + SETTINGS);
+    }
     uint16_t now = 65000;
     for (size_t i = SETTINGS; i + 1 < size; i += 2)
     {
