@@ -60,6 +60,17 @@ def test_solutions_are_not_published_as_states(ins, scenario_of):
     assert done.returncode == 2 and "ins-navd --input nav" in done.stderr, done.stderr
 
 
+def test_what_a_host_outside_would_say_is_not_judged(summary, scenario_of, tmp_path):
+    path = scenario_of()
+    values = ("link.ok", "solution.seq", "hosts.scib.link.ok", "hosts.scib.octets_received")
+    expects = "".join(f'[[expect]]\nvalue = "{value}"\nat_least = 1\n' for value in values)
+    path.write_text(path.read_text(encoding="utf-8") + expects, encoding="utf-8")
+    result = summary(path, "--serial", f"scib=file:{tmp_path / 'octets'}", "--speed", 10, "--stop-s", 1)
+    assert result["not_judged"] == list(values[:3]) and result["link"] is None
+    assert (tmp_path / "octets").stat().st_size == result["hosts"]["scib"]["octets_received"] > 0
+    assert summary(path)["not_judged"] == []
+
+
 def test_states_are_the_blocks(ins, scenario_of, tmp_path):
     out = tmp_path / "s.csv"
     done = ins("run", scenario_of(), "--states", out)

@@ -4,7 +4,7 @@ import contextlib
 import hashlib
 import json
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -25,7 +25,7 @@ __all__ = ["AXES", "COLUMNS", "PS_PER_S", "Array", "accuracy", "build", "execute
 SLICE_S = 0.1
 """Virtual time between two looks at the results, unpaced."""
 PACED_SLICE_S = 0.001
-INSIDE = ("link.", "attitude.", "age_s.")
+INSIDE = ("link.", "attitude.", "age_s.", "position.", "solution.")
 """Values that need the navigator inside the run; with a host outside, expectations on them are not judged."""
 NO_SOLUTIONS = (
     "--dds publishes what a navigator makes of codes; of a board that navigates itself, tie the host to a pty by "
@@ -182,7 +182,7 @@ def _execute(scenario: Loaded, options: Options, machine: Machine, seed: int, st
         **({"faults": faults.counted(machine.fault_hits())} if tables.fault else {}),
         **(options.watch.end(machine.subject) if options.watch is not None else {}),
     }
-    checks = [_judged(expect, summary) for expect in tables.expect]
+    checks = [_judged(expect, summary, options.endpoints) for expect in tables.expect]
     if tables.stop_samples is not None:
         few = f"stop_samples: {len(states)} of {tables.stop_samples} samples came in {stop_s} s simulated"
         checks.append(Check(f"stop_samples {tables.stop_samples}", None if reached_samples else few))
@@ -229,12 +229,13 @@ class Pacer:
                 endpoint.write(octets)
 
 
-def _judged(expect: Expect, summary: dict[str, Any]) -> Check:
+def _judged(expect: Expect, summary: dict[str, Any], outside: Collection[str]) -> Check:
     """An expectation against the summary; with the host outside, what needs the navigator is not judged."""
     bounds = [
         f"{word.replace('_', ' ')} {getattr(expect, word):g}" for word in BOUNDS if getattr(expect, word) is not None
     ]
-    judged = summary["link"] is not None or not expect.value.startswith(INSIDE)
+    theirs = tuple(f"hosts.{name}.{inside}" for name in outside for inside in INSIDE)
+    judged = not expect.value.startswith(theirs if summary["link"] is not None else (*theirs, *INSIDE))
     return Check(f"{expect.value} {' and '.join(bounds)}", _failure(expect, summary) if judged else None, judged)
 
 
