@@ -109,6 +109,28 @@ TEST(shim, a_run_stops_at_exactly_the_instant_asked_for)
     }
 }
 
+TEST(shim, all_that_is_due_at_the_instant_has_happened)
+{
+    struct two
+    {
+        emu_sched_t* sched;
+        emu_event_t first, second;
+        bool happened;
+    };
+    case_board b(CASE_FOREVER, true, 0);
+    two t{&b.sched, {}, {}, false};
+    t.second.fire = [](void* ctx, emu_time_t) { static_cast<two*>(ctx)->happened = true; };
+    t.first.fire = [](void* ctx, emu_time_t at)
+    {
+        auto* const both = static_cast<two*>(ctx);
+        emu_sched_at(both->sched, &both->second, at);
+    };
+    t.first.ctx = t.second.ctx = &t;
+    emu_sched_at(&b.sched, &t.first, EMU_PS_PER_S / 1000);
+    EXPECT_EQ(f2812_shim_run(b.shim, EMU_PS_PER_S / 1000), F2812_REACHED);
+    EXPECT_TRUE(t.happened) << "set at the instant itself";
+}
+
 TEST(shim, windows_of_any_length_give_the_same_run)
 {
     std::vector<shim_board::access> writes;

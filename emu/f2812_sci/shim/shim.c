@@ -66,7 +66,7 @@ void f2812_shim_error(f2812_shim_t* self, emu_report_kind_t kind, const char* te
     }
 }
 
-void f2812_shim_finish(f2812_shim_t* self, const char* why)
+_Noreturn void f2812_shim_finish(f2812_shim_t* self, const char* why)
 {
     self->end = why;
     leave(self, LEAVE_ENDED);
@@ -80,14 +80,17 @@ static void interrupt(f2812_shim_t* self, unsigned vector, const f2812_context_t
 {
     void (*const function)(void) = self->program->vectors != NULL ? self->program->vectors[vector] : NULL;
     self->stats.interrupts++;
-    if (function == NULL)
+    f2812_advance(self->device, F2812_CYCLES_INTERRUPT);
+    if (function != NULL)
+    {
+        function();
+    }
+    else
     {
         f2812_shim_error(self, EMU_GUEST_ERROR, "an interrupt was taken whose entry in PieVectTable is not set",
                          vector);
         f2812_shim_finish(self, "interrupt without a function");
     }
-    f2812_advance(self->device, F2812_CYCLES_INTERRUPT);
-    function();
     self->midway = false;
     f2812_shim_step(self, F2812_CYCLES_IRET);
     f2812_iret(self->device, saved);

@@ -57,7 +57,7 @@ struct f2812_shim_t
     bool midway; ///< a volatile object was read, and nothing stored since: no interrupt comes between
     bool stop;   ///< f2812_shim_break()
     bool skip;
-    bool waiting; ///< the firmware's last loop was such, and nothing is due before `until`
+    bool waiting;           ///< the firmware's last loop was such, and nothing is due before `until`
     uint64_t vector_before; ///< what the entry of the table held
     f2812_shim_stats_t stats;
 
@@ -86,8 +86,8 @@ void f2812_shim_attend(f2812_shim_t* self);
 void f2812_shim_wait(f2812_shim_t* self, uint64_t cycles);
 /// IDLE.
 void f2812_shim_idle(f2812_shim_t* self);
-/// The firmware stops for good; does not return.
-void f2812_shim_finish(f2812_shim_t* self, const char* why);
+/// The firmware stops for good.
+_Noreturn void f2812_shim_finish(f2812_shim_t* self, const char* why);
 void f2812_shim_error(f2812_shim_t* self, emu_report_kind_t kind, const char* text, uint32_t detail);
 /// Whether an address is just below the stack of the firmware that runs.
 bool f2812_shim_overflows(uintptr_t at);

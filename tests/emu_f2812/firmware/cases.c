@@ -17,7 +17,7 @@ volatile Uint16 flag;
 volatile Uint32 shared;
 Uint16 taken;
 Uint16 begun = 5;
-static Uint16 plain;
+Uint16 plain; // of the linker's: each store is made
 static Uint16 block[64];
 
 static interrupt void count_isr(void)
@@ -227,7 +227,16 @@ static void not_waits(void)
     flag = 0;
     while (!flag)
     {
-        plain++; // a variable
+        if (plain) // a variable, whose value no register keeps
+        {
+            plain = 0;
+            asm(" NOP");
+        }
+        else
+        {
+            plain = 1;
+            asm(" RPT #1 || NOP");
+        }
     }
     tell(plain);
     DINT;
