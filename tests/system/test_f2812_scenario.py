@@ -1,8 +1,11 @@
 """Scenario files with an F2812 on them: both forms mean the same; errors name file, line, key and remedy."""
 
+import re
+import textwrap
 from pathlib import Path
 
 import pytest
+from conftest import ROOT
 
 SHORT = """schema = 1
 board = "f2812"
@@ -208,3 +211,15 @@ def test_the_board_of_the_8051_does_not_take_an_f2812(write):
 
     with pytest.raises(UsageError, match="compiled for this machine"):
         Board(write(SHORT))
+
+
+def test_the_scenarios_of_the_page_are_scenarios(tmp_path):
+    from libins import scenario
+
+    page = (ROOT / "docs/f2812_scenarios.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^    schema = 1\n(?:    .*\n|\n)+", page, re.MULTILINE)
+    assert len(blocks) == 2
+    for number, block in enumerate(blocks):
+        path = tmp_path / f"{number}.toml"
+        path.write_text(textwrap.dedent(block), encoding="utf-8")
+        assert scenario.load(path).programs
