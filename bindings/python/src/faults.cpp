@@ -105,8 +105,8 @@ void Faults::add(const Fault& fault)
     Active active{fault};
     active.random = fault.seed;
     active.begins = in_conversion(fault.kind) ? EMU_TIME_MAX
-                    : fault.rate_hz > 0.0     ? fault_drawn(active.random, fault, std::max(fault.from, target_.sched->now))
-                                              : fault.from;
+                    : fault.rate_hz > 0.0 ? fault_drawn(active.random, fault, std::max(fault.from, target_.sched->now))
+                                          : fault.from;
     faults_.push_back(active);
 }
 
