@@ -116,7 +116,7 @@ class Debugger(Control):
             from_start = timeline.position.at_ps <= timeline.start.at_ps
             place = timeline.position
             watcher.begin(goal, n)
-            timeline.go(now)
+            timeline.replay(now)
             cycle = choose()
             watcher.begin("none", 0)
             if cycle is not None:

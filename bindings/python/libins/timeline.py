@@ -8,7 +8,7 @@ every second one is dropped and the spacing doubled.
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from libins.run import PS_PER_S
 
@@ -21,8 +21,7 @@ BUDGET = 256 << 20
 CLOCKS_PER_CYCLE = 12
 
 
-@dataclass(frozen=True, order=True)
-class Position:
+class Position(NamedTuple):
     """An instant of the run, and how many inputs were carried out before it."""
 
     at_ps: int
@@ -119,11 +118,15 @@ class Timeline:
 
     def go(self, to: Position) -> None:
         """Take the run to a position in its history, or in its known future."""
-        near = [self._near] if self._near is not None else []
-        before = [mark for mark in self._marks[: self._after(to)][-1:] + near if mark.position <= to]
-        mark = max(before, key=lambda each: each.position)
+        mark = self._marks[self._after(to) - 1]
+        if self._near is not None and mark.position < self._near.position <= to:
+            mark = self._near
         if not mark.position <= self.position <= to:
             self._restore(mark)
+        self.replay(to)
+
+    def replay(self, to: Position) -> None:
+        """From here to a later position in the history or the known future, through all that lies between."""
         while self._applied < to.inputs:
             self._reach(self._inputs[self._applied].at_ps)
             self._apply()
