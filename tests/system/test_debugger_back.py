@@ -131,6 +131,20 @@ def test_run_back_is_the_last_stop_of_any_breakpoint(image):
     assert (d.resume().numbers, state(d)) == stops[0]
 
 
+def test_a_step_back_from_the_very_instruction_of_a_snapshot_is_one_instruction():
+    d = debugger.open_scenario("default")
+    d.resume(SECOND // 5)
+    marks = d.timeline.marks()[1:]
+    assert marks
+    for mark in marks:
+        d.timeline.go(mark)
+        here = state(d)
+        assert d.reverse_step_instruction().reason == "step"
+        assert d.run.now_ps < mark.at_ps
+        d.step_instruction()
+        assert state(d) == here or d.run.now_ps > mark.at_ps, "asleep there: on to where it wakes"
+
+
 def test_a_breakpoint_at_the_very_instruction_of_a_snapshot_is_met_backwards(image):
     d = steps.opened(image)
     d.resume(SECOND // 20)

@@ -162,6 +162,7 @@ class Run
     static void on_report(void* ctx, emu_report_kind_t kind, const char* text, uint32_t detail, emu_time_t at);
     void wire_up();
     void walk(emu_state_t* io);
+    std::string walked();
 
     struct BoardDeleter
     {

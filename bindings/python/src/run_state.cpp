@@ -1,9 +1,10 @@
 /// \file   run_state.cpp
 /// \brief  Snapshot and restore of a run. SPDX-License-Identifier: MIT
 ///
-/// "LRUN", version; octets that follow and their FNV-1a; then board, line, host, navigator and what was counted. The navigator is there
+/// "LRUN", version; octets that follow and their FNV-1a, by eight octets at a time; then board, line, host, navigator and what was counted. The navigator is there
 /// as the core keeps it, in the machine's own layout: a snapshot with a navigator is for builds of one kind.
 #include "run.hpp"
+#include <cstring>
 #include <stdexcept>
 #include <type_traits>
 
@@ -12,17 +13,21 @@ namespace libins
 namespace
 {
 
-constexpr uint32_t version = 1;
+constexpr uint32_t version = 2;
 constexpr size_t header_octets = 24;
 
 uint64_t fnv1a(const char* octets, size_t size)
 {
     uint64_t hash = 0xCBF29CE484222325;
-    for (size_t i = 0; i < size; i++)
+    uint64_t word = 0;
+    for (; size >= sizeof word; size -= sizeof word, octets += sizeof word)
     {
-        hash = (hash ^ static_cast<uint8_t>(octets[i])) * 0x100000001B3;
+        std::memcpy(&word, octets, sizeof word);
+        hash = (hash ^ word) * 0x100000001B3;
     }
-    return hash;
+    word = 0;
+    std::memcpy(&word, octets, size);
+    return (hash ^ word) * 0x100000001B3;
 }
 
 void same(emu_state_t* io, uint64_t value)
@@ -59,13 +64,15 @@ template <typename T> void plain(emu_state_t* io, T& value)
     emu_state_octets(io, &value, sizeof value);
 }
 
+/// In one piece, since a long run has many.
 void each(emu_state_t* io, Scan& scan)
 {
-    for (size_t i = 0; i < scan.at.size(); i++)
-    {
-        emu_state_i64(io, &scan.at[i]);
-        emu_state_u16(io, &scan.code[i]);
-    }
+    std::array<uint8_t, sizeof scan.at + sizeof scan.code> octets;
+    std::memcpy(octets.data(), &scan.at, sizeof scan.at);
+    std::memcpy(octets.data() + sizeof scan.at, &scan.code, sizeof scan.code);
+    emu_state_octets(io, octets.data(), octets.size());
+    std::memcpy(&scan.at, octets.data(), sizeof scan.at);
+    std::memcpy(&scan.code, octets.data() + sizeof scan.at, sizeof scan.code);
 }
 
 void each(emu_state_t* io, Report& report)
@@ -163,17 +170,25 @@ void Run::walk(emu_state_t* io)
     map(io, volts_);
 }
 
-std::string Run::save()
+/// Room for the header, and the walk behind it.
+std::string Run::walked()
 {
     emu_state_t count{};
     walk(&count);
     std::string octets(header_octets + count.at, '\0');
-    auto* to = reinterpret_cast<uint8_t*>(octets.data());
-    emu_state_t body{to + header_octets, nullptr, count.at, 0, false}, head{to, nullptr, header_octets, 0, false};
+    emu_state_t body{reinterpret_cast<uint8_t*>(octets.data()) + header_octets, nullptr, count.at, 0, false};
     walk(&body);
+    return octets;
+}
+
+std::string Run::save()
+{
+    std::string octets = walked();
+    const size_t rest = octets.size() - header_octets;
+    emu_state_t head{reinterpret_cast<uint8_t*>(octets.data()), nullptr, header_octets, 0, false};
     emu_state_tag(&head, "LRUN", version);
-    same(&head, count.at);
-    same(&head, fnv1a(octets.data() + header_octets, count.at));
+    same(&head, rest);
+    same(&head, fnv1a(octets.data() + header_octets, rest));
     return octets;
 }
 
@@ -189,7 +204,7 @@ void Run::restore(const std::string& octets)
     {
         throw std::invalid_argument("this is no snapshot of a run of this version, or it was changed or cut short");
     }
-    const std::string before = save();
+    const std::string before = walked();
     const auto load = [this](const std::string& all)
     {
         emu_state_t io{nullptr, reinterpret_cast<const uint8_t*>(all.data()) + header_octets,
