@@ -227,3 +227,20 @@ TEST(xint, counts_cycles_since_the_last_edge)
     EXPECT_EQ(r.get("XINT2CTR"), 70000u - 65536u);
 }
 } // namespace
+
+TEST(gpio, a_pin_moves_at_the_cycle_of_the_write)
+{
+    static constexpr uint64_t CYCLES = 1000003;
+    rig r;
+    r.quiet();
+    emu_time_t moved = 0;
+    (void)emu_wire_watch(
+        f2812_wire(r.dsp, "GPIOA0"), [](void* ctx, bool, emu_time_t at) { *static_cast<emu_time_t*>(ctx) = at; },
+        &moved);
+    const emu_time_t from = f2812_now(r.dsp);
+    r.put_guarded("GPADIR", 1);
+    EXPECT_EQ(moved, from) << "the latch is low";
+    r.pass(CYCLES);
+    r.put("GPADAT", 1);
+    EXPECT_EQ(moved, from + exact(CYCLES, rig::OSC_HZ / 2));
+}

@@ -128,6 +128,17 @@ struct sender : rig
     }
 };
 
+TEST(sysctl, a_word_goes_out_behind_its_write_however_long_nothing_was_due_before_it)
+{
+    static constexpr uint64_t CYCLES = 1000003;
+    sender s;
+    const emu_time_t from = f2812_now(s.dsp);
+    s.pass(CYCLES);
+    const emu_time_t bit = s.bit(), written = from + exact(CYCLES, rig::OSC_HZ / 2);
+    EXPECT_GT(s.edges[0], written);
+    EXPECT_LT(s.edges[0], written + bit);
+}
+
 TEST(sysctl, lospcp_divides_what_the_sci_is_clocked_with)
 {
     for (unsigned n = 0; n <= 7; n++)

@@ -37,15 +37,12 @@ static void nobody_write(f2812_t* self, uint16_t address, uint16_t value)
     (void)value;
 }
 
-static const struct
-{
-    uint16_t (*peek)(const f2812_t* self, uint16_t address);
-    void (*write)(f2812_t* self, uint16_t address, uint16_t value);
-} units[F2812_UNITS] = {
+const f2812_unit_access_t f2812_units[F2812_UNITS] = {
     [F2812_NOBODY] = {nobody_peek, nobody_write},
     [F2812_MEMORY] = {memory_peek, memory_write},
     [F2812_NOT_MODELLED] = {memory_peek, memory_write},
     [F2812_PIE] = {memory_peek, f2812_pie_write},
+    [F2812_PIE_ACK] = {memory_peek, f2812_pie_acknowledge},
     [F2812_TIMER] = {f2812_timer_peek, f2812_timer_write},
     [F2812_SYSCTL] = {memory_peek, f2812_sysctl_write},
     [F2812_WATCHDOG] = {f2812_watchdog_peek, f2812_watchdog_write},
@@ -66,7 +63,8 @@ void f2812_map_clocks(f2812_t* self)
         const uint16_t address = f2812_registers[i].address;
         f2812_slot_t* const slot = &self->map[address];
         const bool on = clocked(self, slot);
-        slot->flags = (uint8_t)((slot->flags & ~F2812_FINE) | (on ? F2812_FINE : 0));
+        const unsigned fine = F2812_FINE | (f2812_registers[i].flags & F2812_REPEATS);
+        slot->flags = (uint16_t)((slot->flags & ~fine) | (on ? fine : 0));
         slot->value = !on                            ? NULL
                       : slot->reader == F2812_MEMORY ? &self->mem[address]
                       : slot->reader == F2812_SCI    ? f2812_serial_value(self, address, true)
@@ -201,9 +199,9 @@ uint16_t f2812_access_read(f2812_t* self, uint16_t address)
     if (!outside(self, address) && (fine(self, address, false) || admit(self, address, false)))
     {
         const unsigned unit = self->map[address].reader;
-        value = unit == F2812_SCI ? f2812_serial_read(self, address) : units[unit].peek(self, address);
+        value = unit == F2812_SCI ? f2812_serial_read(self, address) : f2812_units[unit].peek(self, address);
     }
-    if (self->observed)
+    if (self->observer.access != NULL)
     {
         self->observer.access(self->observer.ctx, address, value, false, now);
     }
@@ -213,13 +211,13 @@ uint16_t f2812_access_read(f2812_t* self, uint16_t address)
 void f2812_access_write(f2812_t* self, uint16_t address, uint16_t value)
 {
     const emu_time_t now = f2812_sync(self);
-    if (self->observed)
+    if (self->observer.access != NULL)
     {
         self->observer.access(self->observer.ctx, address, value, true, now);
     }
     if (!outside(self, address) && (fine(self, address, true) || admit(self, address, true)))
     {
-        units[self->map[address].writer].write(self, address, value);
+        f2812_units[self->map[address].writer].write(self, address, value);
     }
 }
 
@@ -231,5 +229,5 @@ uint16_t f2812_access_peek(const f2812_t* self, uint16_t address)
     }
     const f2812_slot_t* const slot = &self->map[address];
     const bool taken = clocked(self, slot) || self->config.switches.clock_off == F2812_CLOCK_OFF_TAKE;
-    return taken ? units[slot->reader].peek(self, address) : 0;
+    return taken ? f2812_units[slot->reader].peek(self, address) : 0;
 }

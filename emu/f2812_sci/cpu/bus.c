@@ -6,10 +6,10 @@
 
 uint16_t f2812_read(f2812_t* self, uint16_t address)
 {
-    if (address < F2812_WORDS)
+    if (address < self->unobserved)
     {
         const uint16_t* const value = self->map[address].value;
-        if (value != NULL && !self->observed)
+        if (value != NULL)
         {
             return *value;
         }
@@ -19,12 +19,16 @@ uint16_t f2812_read(f2812_t* self, uint16_t address)
 
 void f2812_write(f2812_t* self, uint16_t address, uint16_t value)
 {
-    if (address < F2812_WORDS && !self->observed)
+    if (address < self->unobserved)
     {
         const f2812_slot_t* const slot = &self->map[address];
-        if (slot->writer == F2812_MEMORY && (self->cpu.eallow || (slot->flags & F2812_EALLOW) == 0))
+        if ((slot->flags & F2812_REPEATS) != 0 && ((value ^ *slot->value) & slot->writable) == 0)
         {
-            self->mem[address] = value & slot->writable;
+            return;
+        }
+        if ((slot->flags & F2812_FINE) != 0 && (self->cpu.eallow || (slot->flags & F2812_EALLOW) == 0))
+        {
+            f2812_units[slot->writer].write(self, address, value);
             return;
         }
     }
@@ -39,5 +43,5 @@ uint16_t f2812_peek(const f2812_t* self, uint16_t address)
 void f2812_observe(f2812_t* self, const f2812_observer_t* observer)
 {
     self->observer = observer != NULL ? *observer : (f2812_observer_t){0};
-    self->observed = self->observer.access != NULL;
+    self->unobserved = self->observer.access != NULL ? 0 : F2812_WORDS;
 }

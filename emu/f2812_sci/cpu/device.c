@@ -153,6 +153,7 @@ f2812_t* f2812_create(const f2812_config_t* config, emu_sched_t* sched)
         return NULL;
     }
     self->config = *config;
+    self->unobserved = F2812_WORDS;
     self->sched = sched;
     sched->earlier = earlier;
     sched->earlier_ctx = self;

@@ -56,11 +56,12 @@ struct f2812_t
     uint64_t cycle; ///< of SYSCLKOUT, now
     uint64_t due;   ///< first cycle at which an event is due
     bool pending;   ///< f2812_interrupt_pending()
-    bool observed;  ///< observer.access is there
     bool restart;   ///< there was a reset that the program has not seen
     bool in_reset;  ///< /XRS is low
     bool firing;    ///< within an event
-    uint32_t told;  ///< F2812_ONCE_* since the last reset
+    uint16_t
+        unobserved; ///< accesses of addresses below may go by the map alone: F2812_WORDS, or 0 while observer.access is there
+    uint32_t told; ///< F2812_ONCE_* since the last reset
     f2812_cpu_t cpu;
     f2812_config_t config;
     f2812_observer_t observer;
@@ -105,6 +106,13 @@ static inline emu_time_t f2812_sync(f2812_t* self)
 /// cpu/access.c
 void f2812_map_reset(f2812_t* self);
 void f2812_map_clocks(f2812_t* self); ///< PCLKCR has come into force
+/// What a unit does for an access. A write finds sched->now as it is: who needs the time calls f2812_sync().
+typedef struct f2812_unit_access_t
+{
+    uint16_t (*peek)(const f2812_t* self, uint16_t address);
+    void (*write)(f2812_t* self, uint16_t address, uint16_t value);
+} f2812_unit_access_t;
+extern const f2812_unit_access_t f2812_units[F2812_UNITS];
 /// An access that is more than memory.
 uint16_t f2812_access_read(f2812_t* self, uint16_t address);
 void f2812_access_write(f2812_t* self, uint16_t address, uint16_t value);
@@ -126,6 +134,7 @@ void f2812_cpu_request(f2812_t* self, unsigned line); ///< INT(line + 1)
 void f2812_pie_request(f2812_t* self, unsigned vector);  ///< a pulse of the peripheral that has this entry
 unsigned f2812_pie_fetch(f2812_t* self, unsigned group); ///< entry of INT(group + 1), 0 .. 11
 void f2812_pie_write(f2812_t* self, uint16_t address, uint16_t value);
+void f2812_pie_acknowledge(f2812_t* self, uint16_t address, uint16_t value);
 
 /// periph/sysctl.c: clock tree
 void f2812_sysctl_init(f2812_t* self);

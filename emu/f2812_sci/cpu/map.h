@@ -47,6 +47,7 @@ typedef enum f2812_unit_t
     F2812_MEMORY,       ///< reads back what was written
     F2812_NOT_MODELLED, ///< the same, and says so
     F2812_PIE,
+    F2812_PIE_ACK,
     F2812_TIMER,
     F2812_SYSCTL,
     F2812_WATCHDOG,
@@ -65,15 +66,17 @@ enum
     F2812_TOLD_NOBODY = 16,  ///< from here on: what was reported of it since the last reset
     F2812_TOLD_EALLOW = 32,
     F2812_TOLD_CLOCK = 64,
-    F2812_TOLD_NOT_MODELLED = 128
+    F2812_TOLD_NOT_MODELLED = 128,
+    F2812_REPEATS = 256 ///< a write that leaves `writable` as it is does nothing; in the map while there is a clock
 };
 
 typedef struct f2812_register_t
 {
     uint16_t address;
     const char* name;
-    uint8_t unit, clock, flags; ///< F2812_CLOCK(bit of PCLKCR); 0: always
-    uint16_t reset, writable;   ///< value, bits
+    uint8_t unit, clock; ///< F2812_CLOCK(bit of PCLKCR); 0: always
+    uint16_t flags;
+    uint16_t reset, writable; ///< value, bits
 } f2812_register_t;
 
 /// Registers in a row that only read back; one without a name is no register.
@@ -96,8 +99,8 @@ typedef struct f2812_slot_t
 {
     const uint16_t* value;  ///< what a read gives, if that is all there is to it; NULL: ask the reader
     uint8_t reader, writer; ///< f2812_unit_t; F2812_MEMORY: mem[] is all there is to it
-    uint8_t clock, flags;
-    uint16_t writable;
+    uint8_t clock;
+    uint16_t flags, writable;
 } f2812_slot_t;
 
 #endif // F2812_MAP_H_INCLUDED

@@ -52,24 +52,34 @@ unsigned f2812_pie_fetch(f2812_t* self, unsigned group)
     return F2812_VECTOR_PIE + 8u * group + y;
 }
 
+/// A group whose bit was clear has nothing to send.
+void f2812_pie_acknowledge(f2812_t* self, uint16_t address, uint16_t value)
+{
+    const unsigned acknowledged = self->mem[PIEACK] & value;
+    (void)address;
+    if (acknowledged == 0)
+    {
+        return;
+    }
+    (void)f2812_sync(self);
+    self->mem[PIEACK] &= (uint16_t)~value;
+    for (unsigned group = 0; acknowledged >> group != 0; group++)
+    {
+        if ((acknowledged >> group & 1u) != 0)
+        {
+            send(self, group);
+        }
+    }
+}
+
 void f2812_pie_write(f2812_t* self, uint16_t address, uint16_t value)
 {
     const uint16_t writable = self->map[address].writable;
+    (void)f2812_sync(self);
     if (address == PIECTRL)
     {
         self->mem[PIECTRL] = (uint16_t)((self->mem[PIECTRL] & ~ENPIE) | (value & ENPIE));
         f2812_update_pending(self);
-    }
-    else if (address == PIEACK)
-    {
-        self->mem[PIEACK] &= (uint16_t)~value;
-        for (unsigned group = 0; (value & writable) >> group != 0; group++)
-        {
-            if (((unsigned)value >> group & 1u) != 0)
-            {
-                send(self, group);
-            }
-        }
     }
     else
     {

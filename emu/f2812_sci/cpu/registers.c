@@ -4,9 +4,10 @@
 /// SPDX-License-Identifier: MIT
 #include "map.h"
 
-#define EALLOW F2812_EALLOW
-#define READS  F2812_READS_MEMORY
-#define WRITES F2812_WRITES_MEMORY
+#define EALLOW  F2812_EALLOW
+#define READS   F2812_READS_MEMORY
+#define WRITES  F2812_WRITES_MEMORY
+#define REPEATS F2812_REPEATS
 
 /// PRD and TIM after reset: no source at hand for the F2812; older CPUs of the family hold FFFFh.
 #define TIMER(base, n)                                                                                                 \
@@ -38,20 +39,20 @@
         GPIO_MUX + (offset) + 2, "GP" p "QUAL", F2812_MEMORY, 0, EALLOW, 0, 0x00FF                                     \
     }
 #define SCI_OF(base, bit, p)                                                                                           \
-    {(base), "SCICCR" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                                        \
-        {(base) + 1, "SCICTL1" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                               \
-        {(base) + 2, "SCIHBAUD" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                              \
-        {(base) + 3, "SCILBAUD" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                              \
-        {(base) + 4, "SCICTL2" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                               \
+    {(base), "SCICCR" p, F2812_SCI, F2812_CLOCK(bit), REPEATS, 0, 0x00FF},                                             \
+        {(base) + 1, "SCICTL1" p, F2812_SCI, F2812_CLOCK(bit), REPEATS, 0, 0x006F},                                    \
+        {(base) + 2, "SCIHBAUD" p, F2812_SCI, F2812_CLOCK(bit), REPEATS, 0, 0x00FF},                                   \
+        {(base) + 3, "SCILBAUD" p, F2812_SCI, F2812_CLOCK(bit), REPEATS, 0, 0x00FF},                                   \
+        {(base) + 4, "SCICTL2" p, F2812_SCI, F2812_CLOCK(bit), REPEATS, 0, 0x0003},                                    \
         {(base) + 5, "SCIRXST" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                               \
         {(base) + 6, "SCIRXEMU" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                              \
         {(base) + 7, "SCIRXBUF" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                              \
-        {(base) + 9, "SCITXBUF" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                              \
-        {(base) + 10, "SCIFFTX" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                              \
-        {(base) + 11, "SCIFFRX" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                              \
-        {(base) + 12, "SCIFFCT" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0},                                              \
+        {(base) + 9, "SCITXBUF" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0x00FF},                                         \
+        {(base) + 10, "SCIFFTX" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0xE07F},                                         \
+        {(base) + 11, "SCIFFRX" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0x607F},                                         \
+        {(base) + 12, "SCIFFCT" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0x60FF},                                         \
     {                                                                                                                  \
-        (base) + 15, "SCIPRI" p, F2812_SCI, F2812_CLOCK(bit), 0, 0, 0                                                  \
+        (base) + 15, "SCIPRI" p, F2812_SCI, F2812_CLOCK(bit), REPEATS, 0, 0x0018                                       \
     }
 
 const f2812_register_t f2812_registers[] = {
@@ -59,7 +60,7 @@ const f2812_register_t f2812_registers[] = {
     TIMER(TIMER0TIM + 8, "1"),
     TIMER(TIMER0TIM + 16, "2"),
     {PIECTRL, "PIECTRL", F2812_PIE, 0, READS, 0, 0x0001},
-    {PIEACK, "PIEACK", F2812_PIE, 0, READS, 0, 0x0FFF},
+    {PIEACK, "PIEACK", F2812_PIE_ACK, 0, READS, 0, 0x0FFF},
     GROUP(1),
     GROUP(2),
     GROUP(3),

@@ -21,18 +21,15 @@ enum
 };
 #define PORT_WORDS 4u
 
-/// Distance of a port's registers from those of port A, 0FFh for none; letter by port.
+/// Distance of a port's registers from those of port A; letter by port.
 static const uint8_t offset_of[F2812_PORTS] = {0x00, 0x04, 0x0C, 0x10, 0x14, 0x18};
 static const char letter_of[F2812_PORTS + 1] = "ABDEFG";
 
+/// There is no port C.
 static unsigned port_at(unsigned offset)
 {
-    unsigned port = 0;
-    while (offset_of[port] != (offset & ~(PORT_WORDS - 1u)))
-    {
-        port++;
-    }
-    return port;
+    static const uint8_t port[] = {0, 1, F2812_PORTS, 2, 3, 4, 5};
+    return port[offset / PORT_WORDS];
 }
 
 static uint16_t mux_register(const f2812_t* self, unsigned port, unsigned which)
@@ -67,7 +64,11 @@ static void set_latch(f2812_t* self, unsigned port, uint16_t latch)
 {
     const unsigned changed = (latch ^ self->latch[port]) & self->outputs[port];
     self->latch[port] = latch;
-    drive(self, port, changed);
+    if (changed != 0)
+    {
+        (void)f2812_sync(self);
+        drive(self, port, changed);
+    }
 }
 
 static void pin_moved(void* ctx, bool level, emu_time_t at)
@@ -121,6 +122,7 @@ void f2812_gpio_write(f2812_t* self, uint16_t address, uint16_t value)
     value &= self->map[address].writable;
     if (address < GPIO_DATA)
     {
+        (void)f2812_sync(self);
         self->mem[address] = value;
         set_outputs(self, port_at((unsigned)address - GPIO_MUX));
         f2812_serial_pins(self);

@@ -14,9 +14,16 @@
 #define OFFSET_MASK 0x000Fu
 #define SCIRXBUF    7u ///< the one whose reading does something
 
-static void requested(void* ctx, bool tx)
+static void present(void* ctx)
 {
     const f2812_serial_t* const port = ctx;
+    (void)f2812_sync(port->device);
+}
+
+static void requested(void* ctx, bool tx)
+{
+    f2812_serial_t* const port = ctx;
+    present(ctx);
     f2812_pie_request(port->device, SCIRXINTA + 2u * port->number + (tx ? 1u : 0u));
 }
 
@@ -35,6 +42,7 @@ int f2812_serial_init(f2812_t* self)
                                .switches = &self->config.switches,
                                .txd = &pins[TX_PIN].wire,
                                .rxd = &pins[RX_PIN].wire,
+                               .present = present,
                                .interrupt = requested,
                                .ctx = port,
                                .report = self->config.report,

@@ -106,6 +106,7 @@ static void write_pllcr(f2812_t* self, unsigned div)
 void f2812_sysctl_write(f2812_t* self, uint16_t address, uint16_t value)
 {
     value &= self->map[address].writable;
+    (void)f2812_sync(self);
     if (address == PLLCR)
     {
         write_pllcr(self, value);

@@ -157,6 +157,7 @@ void f2812_timer_write(f2812_t* self, uint16_t address, uint16_t value)
 {
     const unsigned n = ((unsigned)address - TIMER0TIM) / TIMER_WORDS;
     f2812_timer_t* const t = &self->timer[n];
+    (void)f2812_sync(self);
     sync(self, n);
     const uint16_t tif = self->mem[address] & ~value & TCR_TIF;
     const uint16_t writable = self->map[address].writable;

@@ -156,6 +156,7 @@ static void write_scsr(f2812_t* self, unsigned value)
 void f2812_watchdog_write(f2812_t* self, uint16_t address, uint16_t value)
 {
     value &= self->map[address].writable;
+    (void)f2812_sync(self);
     if (address == WDKEY)
     {
         write_key(self, value);

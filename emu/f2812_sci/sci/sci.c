@@ -25,22 +25,12 @@ bool sci_odd(uint32_t bits)
     return odd;
 }
 
-void sci_fifo_put(sci_fifo_t* fifo, uint16_t word)
-{
-    fifo->word[(fifo->head + fifo->count++) % SCI_FIFO] = word;
-}
-
 uint16_t sci_fifo_take(sci_fifo_t* fifo)
 {
     const uint16_t word = fifo->word[fifo->head];
     fifo->head = (uint8_t)((fifo->head + 1u) % SCI_FIFO);
     fifo->count--;
     return word;
-}
-
-void sci_fifo_show(sci_t* self, unsigned offset, const sci_fifo_t* fifo)
-{
-    self->reg[offset] = (uint16_t)((self->reg[offset] & ~(unsigned)SCIFF_ST) | (unsigned)fifo->count * SCIFF_ST_ONE);
 }
 
 uint16_t sci_peek(const sci_t* self, unsigned offset)
@@ -111,13 +101,29 @@ static void empty_tx(sci_t* self)
     sci_tx_flags(self);
 }
 
+static void store_fftx(sci_t* self, uint16_t value)
+{
+    const unsigned kept = (SCIFF_ST | SCIFF_INT) & ~((value & (unsigned)SCIFF_INTCLR) << 1);
+    self->reg[SCIFFTX] = (uint16_t)((self->reg[SCIFFTX] & kept) | (value & SCIFFTX_WRITABLE));
+    self->tx.interrupt = self->tx.interrupt && !(value & SCIFF_INTCLR);
+}
+
+/// Resets and enable stay as they are, and none holds.
+static bool write_fftx_flags(sci_t* self, uint16_t value)
+{
+    const unsigned resets = SCIFFTX_SCIRST | SCIFFTX_TXFIFOXRESET;
+    if ((value & resets) != resets || ((value ^ self->reg[SCIFFTX]) & (resets | SCIFFTX_SCIFFENA)) != 0)
+    {
+        return false;
+    }
+    store_fftx(self, value);
+    sci_tx_interrupt(self, !self->env.switches->sci_ffint);
+    return true;
+}
+
 static void write_fftx(sci_t* self, uint16_t value)
 {
-    self->reg[SCIFFTX] = (uint16_t)((self->reg[SCIFFTX] & (SCIFF_ST | SCIFF_INT)) | (value & SCIFFTX_WRITABLE));
-    if (value & SCIFF_INTCLR)
-    {
-        sci_set(self, SCIFFTX, SCIFF_INT, false);
-    }
+    store_fftx(self, value);
     if (!(value & SCIFFTX_SCIRST))
     {
         sci_set(self, SCIFFTX, SCIFF_INT, false);
@@ -131,22 +137,20 @@ static void write_fftx(sci_t* self, uint16_t value)
         empty_tx(self);
     }
     sci_tx_flags(self);
-    sci_tx_interrupt(self, false);
     sci_tx_interrupt(self, !self->env.switches->sci_ffint);
     sci_rx_interrupt(self, !self->env.switches->sci_ffint, false);
 }
 
 static void write_ffrx(sci_t* self, uint16_t value)
 {
-    uint16_t kept = SCIFF_ST | SCIFF_INT | SCIFFRX_RXFFOVF;
-    kept = (uint16_t)(value & SCIFF_INTCLR ? kept & ~(unsigned)SCIFF_INT : kept);
-    kept = (uint16_t)(value & SCIFFRX_RXFFOVRCLR ? kept & ~(unsigned)SCIFFRX_RXFFOVF : kept);
+    const unsigned cleared = (value & (unsigned)(SCIFF_INTCLR | SCIFFRX_RXFFOVRCLR)) << 1;
+    const unsigned kept = (SCIFF_ST | SCIFF_INT | SCIFFRX_RXFFOVF) & ~cleared;
     self->reg[SCIFFRX] = (uint16_t)((self->reg[SCIFFRX] & kept) | (value & SCIFFRX_WRITABLE));
     if (!(value & SCIFFRX_RXFIFORESET))
     {
         sci_rx_empty(self);
     }
-    sci_rx_interrupt(self, false, false);
+    self->rx.interrupt = self->rx.interrupt && !(value & SCIFF_INTCLR);
     sci_rx_interrupt(self, !self->env.switches->sci_ffint, false);
 }
 
@@ -162,8 +166,44 @@ static void write_ffct(sci_t* self, uint16_t value)
     sci_tx_interrupt(self, false);
 }
 
+/// A write that is a matter of flags and interrupts: the present does not matter. \return false: it is not, nothing is done.
+static bool write_flags(sci_t* self, unsigned offset, uint16_t value)
+{
+    switch (offset)
+    {
+    case SCICTL2:
+        self->reg[SCICTL2] =
+            (uint16_t)((self->reg[SCICTL2] & ~(unsigned)SCICTL2_WRITABLE) | (value & SCICTL2_WRITABLE));
+        return true;
+    case SCITXBUF:
+        return sci_tx_queue(self, value & 0xFFu);
+    case SCIFFTX:
+        return write_fftx_flags(self, value);
+    case SCIFFRX:
+        write_ffrx(self, value);
+        return true;
+    case SCIPRI:
+        self->reg[SCIPRI] = value & (SCIPRI_SOFT | SCIPRI_FREE);
+        return true;
+    default:
+        return false;
+    }
+}
+
 void sci_write(sci_t* self, unsigned offset, uint16_t value)
 {
+    if (!write_flags(self, offset, value))
+    {
+        sci_write_present(self, offset, value);
+    }
+}
+
+void sci_write_present(sci_t* self, unsigned offset, uint16_t value)
+{
+    if (self->env.present != NULL)
+    {
+        self->env.present(self->env.ctx);
+    }
     const bool listened = sci_rx_listens(self);
     switch (offset)
     {
@@ -177,24 +217,14 @@ void sci_write(sci_t* self, unsigned offset, uint16_t value)
     case SCILBAUD:
         write_baud(self, offset, value & 0xFFu);
         break;
-    case SCICTL2:
-        self->reg[SCICTL2] =
-            (uint16_t)((self->reg[SCICTL2] & ~(unsigned)SCICTL2_WRITABLE) | (value & SCICTL2_WRITABLE));
-        break;
     case SCITXBUF:
         sci_tx_write(self, value & 0xFFu);
         break;
     case SCIFFTX:
         write_fftx(self, value);
         break;
-    case SCIFFRX:
-        write_ffrx(self, value);
-        break;
     case SCIFFCT:
         write_ffct(self, value);
-        break;
-    case SCIPRI:
-        self->reg[SCIPRI] = value & (SCIPRI_SOFT | SCIPRI_FREE);
         break;
     default:
         break;

@@ -22,6 +22,7 @@ typedef struct sci_env_t
     const f2812_clock_t* lspclk;
     const f2812_switches_t* switches;
     emu_wire_t *txd, *rxd;
+    void (*present)(void* ctx); ///< a write calls it before it looks at sched->now; NULL: that is right anyway
     void (*interrupt)(void* ctx, bool tx); ///< one call is one edge at the PIE: TXINT or RXINT
     void* ctx;
     emu_report_t report;

@@ -66,7 +66,7 @@ enum
     SCIFFRX_RXFIFORESET = 0x2000,
     SCIFFRX_WRITABLE = 0x203F,
 
-    /// The same in SCIFFTX and SCIFFRX.
+    /// The same in SCIFFTX and SCIFFRX. What clears a flag is the bit below it.
     SCIFF_ST = 0x1F00,
     SCIFF_ST_ONE = 0x0100,
     SCIFF_INT = 0x0080,

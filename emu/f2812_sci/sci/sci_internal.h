@@ -36,12 +36,22 @@ static inline unsigned sci_characters(const sci_t* self)
     return (self->reg[SCICCR] & SCICCR_SCICHAR) + 1u;
 }
 
+static inline void sci_fifo_put(sci_fifo_t* fifo, uint16_t word)
+{
+    fifo->word[(fifo->head + fifo->count++) % SCI_FIFO] = word;
+}
+
+/// Put a count into a register's SCIFF_ST.
+static inline void sci_fifo_show(sci_t* self, unsigned offset, const sci_fifo_t* fifo)
+{
+    self->reg[offset] = (uint16_t)((self->reg[offset] & ~(unsigned)SCIFF_ST) | (unsigned)fifo->count * SCIFF_ST_ONE);
+}
+
 void sci_report(const sci_t* self, const char* text, uint32_t detail); ///< the firmware did something wrong
 bool sci_odd(uint32_t bits);                                           ///< number of ones
-void sci_fifo_put(sci_fifo_t* fifo, uint16_t word);
 uint16_t sci_fifo_take(sci_fifo_t* fifo);
-/// Put a count into a register's SCIFF_ST.
-void sci_fifo_show(sci_t* self, unsigned offset, const sci_fifo_t* fifo);
+
+void sci_write_present(sci_t* self, unsigned offset, uint16_t value); ///< a write for which the present matters
 
 // SCICLK
 uint64_t sci_tick(const sci_t* self);                      ///< first LSPCLK after now
@@ -55,6 +65,7 @@ void sci_tx_stop(sci_t* self); ///< held in reset
 void sci_tx_go(sci_t* self);   ///< begin what can begin
 void sci_tx_arm(sci_t* self);  ///< SCICLK has other instants
 void sci_tx_write(sci_t* self, uint8_t word);
+bool sci_tx_queue(sci_t* self, uint8_t word);      ///< put it into the FIFO, if that is all there is to it
 void sci_tx_flags(sci_t* self);                    ///< TXRDY and TXEMPTY
 void sci_tx_interrupt(sci_t* self, bool evaluate); ///< TXFFINT and its interrupt
 void sci_tx_drive(sci_t* self);                    ///< the pin

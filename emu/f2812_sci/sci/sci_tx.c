@@ -232,6 +232,21 @@ void sci_tx_stop(sci_t* self)
     sci_tx_drive(self);
 }
 
+bool sci_tx_queue(sci_t* self, uint8_t word)
+{
+    sci_tx_t* const tx = &self->tx;
+    const unsigned takes = SCIFFTX_SCIFFENA | SCIFFTX_TXFIFOXRESET;
+    if (tx->state == SCI_TX_IDLE || (self->reg[SCIFFTX] & takes) != takes || tx->fifo.count == SCI_FIFO)
+    {
+        return false;
+    }
+    self->reg[SCITXBUF] = word;
+    sci_fifo_put(&tx->fifo, word);
+    sci_fifo_show(self, SCIFFTX, &tx->fifo);
+    sci_tx_flags(self);
+    return true;
+}
+
 void sci_tx_write(sci_t* self, uint8_t word)
 {
     sci_tx_t* const tx = &self->tx;

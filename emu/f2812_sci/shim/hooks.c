@@ -26,7 +26,7 @@ static inline uint16_t load(f2812_shim_t* self, uint16_t entry)
     const uint16_t address = entry & F2812_MAP_ADDRESS;
     const uint16_t* const value = self->device->map[address].value;
     f2812_shim_changes += (entry & F2812_MAP_RESTLESS) != 0;
-    return value != NULL && !self->device->observed ? *value : f2812_access_read(self->device, address);
+    return value != NULL && self->device->unobserved != 0 ? *value : f2812_access_read(self->device, address);
 }
 
 static void load_special(f2812_shim_t* self, uint16_t* word, uint16_t entry)
@@ -78,11 +78,20 @@ static inline uint16_t look(const f2812_shim_t* self, uint16_t address)
 }
 
 /// The memory is made what the device holds: a store to a bit-field puts back the rest of its word, and for its read there is no hook.
-/// An entry of PieVectTable is kept, since the store may be refused.
-static inline void prepare_store(f2812_shim_t* self, uintptr_t at, unsigned words)
+static inline void merge(const f2812_shim_t* self, uint16_t* word, uint16_t address)
 {
-    uint16_t* const word = words_of(at);
-    const uint16_t* const map = self->map + (at - self->base) / 2;
+    *word = look(self, address);
+}
+
+static inline void expect(f2812_shim_t* self, const uint16_t* word, uint16_t address)
+{
+    self->store = (uintptr_t)word;
+    self->store_address = address;
+}
+
+/// An entry of PieVectTable is kept, since the store may be refused.
+static void prepare_words(f2812_shim_t* self, uint16_t* word, const uint16_t* map, unsigned words)
+{
     if (map[0] == F2812_MAP_VECTOR)
     {
         memcpy(&self->vector_before, word, words * sizeof *word);
@@ -91,23 +100,69 @@ static inline void prepare_store(f2812_shim_t* self, uintptr_t at, unsigned word
     {
         if (map[i] > F2812_MAP_VECTOR)
         {
-            word[i] = look(self, map[i] & F2812_MAP_ADDRESS);
+            merge(self, &word[i], map[i] & F2812_MAP_ADDRESS);
         }
     }
-    self->store = (uintptr_t)word;
+    expect(self, word, 0);
     self->store_words = words;
 }
 
-static inline void writing(uintptr_t at, unsigned words)
+static inline void prepare_store(f2812_shim_t* self, uintptr_t at, unsigned words)
+{
+    uint16_t* const word = words_of(at);
+    const uint16_t* const map = self->map + (at - self->base) / 2;
+    const uint16_t entry = map[0];
+    if (words == 1 && entry > F2812_MAP_VECTOR)
+    {
+        const uint16_t address = entry & F2812_MAP_ADDRESS;
+        merge(self, word, address);
+        expect(self, word, address);
+    }
+    else
+    {
+        prepare_words(self, word, map, words);
+    }
+}
+
+/// What each store does first.
+static inline f2812_shim_t* before_store(void)
 {
     f2812_shim_t* const self = f2812_shim_current;
     f2812_shim_step(self, F2812_CYCLES_REGISTER);
     self->midway = false;
     self->stats.accesses++;
     f2812_shim_changes++;
+    return self;
+}
+
+static void writing_words(uintptr_t at, unsigned words)
+{
+    f2812_shim_t* const self = before_store();
     if (at - self->base < self->span)
     {
         prepare_store(self, at, words);
+    }
+}
+
+/// The same, made for the one word that most stores are.
+static void writing_word(uintptr_t at)
+{
+    f2812_shim_t* const self = before_store();
+    if (at - self->base < self->span)
+    {
+        prepare_store(self, at, 1);
+    }
+}
+
+static inline void writing(uintptr_t at, unsigned words)
+{
+    if (words == 1)
+    {
+        writing_word(at);
+    }
+    else
+    {
+        writing_words(at, words);
     }
 }
 
@@ -154,11 +209,9 @@ static void commit_vector(f2812_shim_t* self, uint16_t* word, unsigned words)
     }
 }
 
-void f2812_shim_commit(f2812_shim_t* self)
+void f2812_shim_commit_words(f2812_shim_t* self, uint16_t* word)
 {
-    uint16_t* const word = (uint16_t*)self->store;
-    const uint16_t* const map = self->map + (self->store - self->base) / 2;
-    self->store = 0;
+    const uint16_t* const map = self->map + ((uintptr_t)word - self->base) / 2;
     if (map[0] == F2812_MAP_VECTOR)
     {
         commit_vector(self, word, self->store_words);
@@ -182,6 +235,20 @@ void f2812_shim_commit(f2812_shim_t* self)
             f2812_write(self->device, map[i] & F2812_MAP_ADDRESS, word[i]);
             break;
         }
+    }
+}
+
+void f2812_shim_commit(f2812_shim_t* self)
+{
+    uint16_t* const word = (uint16_t*)self->store;
+    self->store = 0;
+    if (self->store_address != 0)
+    {
+        f2812_write(self->device, self->store_address, *word);
+    }
+    else
+    {
+        f2812_shim_commit_words(self, word);
     }
 }
 

@@ -54,8 +54,9 @@ struct f2812_shim_t
     uint16_t* map;
     uintptr_t store; ///< address of the store that the next hook commits; 0: none
     unsigned store_words;
-    bool midway; ///< a volatile object was read, and nothing stored since: no interrupt comes between
-    bool stop;   ///< f2812_shim_break()
+    uint16_t store_address; ///< of the device, if that is all the store changes; else 0
+    bool midway;            ///< a volatile object was read, and nothing stored since: no interrupt comes between
+    bool stop;              ///< f2812_shim_break()
     bool skip;
     bool waiting;           ///< the firmware's last loop was such, and nothing is due before `until`
     uint64_t vector_before; ///< what the entry of the table held
@@ -80,6 +81,7 @@ extern uint64_t f2812_shim_changes;
 bool f2812_shim_make_map(f2812_shim_t* self);
 /// The pending store goes to the device.
 void f2812_shim_commit(f2812_shim_t* self);
+void f2812_shim_commit_words(f2812_shim_t* self, uint16_t* word);
 /// Interrupts, reset, break.
 void f2812_shim_attend(f2812_shim_t* self);
 /// So many cycles of waiting, in which interrupts come.
