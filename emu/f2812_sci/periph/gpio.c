@@ -37,9 +37,10 @@ static uint16_t mux_register(const f2812_t* self, unsigned port, unsigned which)
     return self->mem[GPIO_MUX + offset_of[port] + which];
 }
 
-/// Pins of a port that have to be driven anew.
+/// Pins of a port that have to be driven anew. sched->now is the present from here on.
 static void drive(f2812_t* self, unsigned port, unsigned pins)
 {
+    const emu_time_t now = f2812_sync(self);
     for (unsigned bit = 0; pins >> bit != 0; bit++)
     {
         f2812_pin_t* const pin = &self->pin[port][bit];
@@ -47,7 +48,7 @@ static void drive(f2812_t* self, unsigned port, unsigned pins)
         {
             const bool high = (self->latch[port] & pin->bit) != 0, output = (self->outputs[port] & pin->bit) != 0;
             const emu_drive_t drive = !output ? EMU_WEAK1 : high ? EMU_STRONG1 : EMU_STRONG0;
-            emu_wire_drive(&pin->wire, pin->driver, drive, self->sched->now);
+            emu_wire_drive(&pin->wire, pin->driver, drive, now);
         }
     }
 }
@@ -66,7 +67,6 @@ static void set_latch(f2812_t* self, unsigned port, uint16_t latch)
     self->latch[port] = latch;
     if (changed != 0)
     {
-        (void)f2812_sync(self);
         drive(self, port, changed);
     }
 }
@@ -122,7 +122,6 @@ void f2812_gpio_write(f2812_t* self, uint16_t address, uint16_t value)
     value &= self->map[address].writable;
     if (address < GPIO_DATA)
     {
-        (void)f2812_sync(self);
         self->mem[address] = value;
         set_outputs(self, port_at((unsigned)address - GPIO_MUX));
         f2812_serial_pins(self);
