@@ -246,7 +246,7 @@ def _judged(
         "failed": failed,
         "verdict": "fail" if failed else "pass",
     }
-    return Result(summary, states, scans, 1 if failed else 0)
+    return Result(summary, states, scans, 1 if failed else 0, list(COLUMNS))
 
 
 def virtual(loaded: Scenario, stop_s: float) -> Result:

@@ -51,8 +51,8 @@ class Result:
     states: Array
     scans: Array
     exit_code: int
+    columns: Sequence[str]
     checks: list[Check] = field(default_factory=list)
-    columns: Sequence[str] = ()
 
 
 @dataclass
@@ -197,7 +197,7 @@ def _execute(scenario: Loaded, options: Options, machine: Machine, seed: int, st
     if options.strict and summary["reports"]:
         code = 3
     summary["verdict"] = "fail" if code else "pass"
-    return Result(summary, states, machine.scans(), code, checks, machine.columns)
+    return Result(summary, states, machine.scans(), code, machine.columns, checks)
 
 
 class Pacer:
