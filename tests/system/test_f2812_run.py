@@ -162,6 +162,14 @@ def test_access_log_of_an_interrupt(variant, ins, tmp_path):
     assert [e["t_ps"] for e in entries] == sorted(e["t_ps"] for e in entries)
 
 
+def test_report_of_a_board_that_navigates_shows_where_it_went(ins, tmp_path):
+    page, still = tmp_path / "went.html", tmp_path / "still.html"
+    assert ins("run", "thesis", "--stop-s", 50, "--report", page).returncode in (0, 1)
+    assert ins("run", "echo", "--report", still).returncode == 0
+    shown = [each.read_text(encoding="utf-8").count("<svg") for each in (page, still)]
+    assert shown[0] == shown[1] + 1
+
+
 def test_report(ins, tmp_path):
     page = tmp_path / "r.html"
     assert ins("run", "echo", "--report", page, "--report-at", 0.012).returncode == 0

@@ -6,7 +6,7 @@ from jinja2 import Environment, PackageLoader, select_autoescape
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from libins import pictures, profile, report, views
+from libins import _run, pictures, profile, report, views
 from libins.net_scenario import NetScenario
 from libins.run import AXES, COLUMNS, Array, Result
 from libins.tables import Loaded
@@ -38,6 +38,38 @@ def attitude_plot(states: Array) -> str:
         return pictures.svg(figure)
 
 
+def solution_plot(states: Array) -> str:
+    """The path and the angles that a navigating board has sent, as SVG."""
+    place = {name: n for n, name in enumerate(_run.SOLUTION_COLUMNS)}
+    thinned = states[:: max(1, len(states) // PLOT_POINTS)]
+    with matplotlib.rc_context({"font.size": 9}):
+        figure = Figure(figsize=(9, 4), layout="constrained")
+        path, angles = figure.subplots(1, 2)
+        known = thinned[thinned[:, place["zone"]] != 0]
+        path.plot(known[:, place["easting_m"]], known[:, place["northing_m"]], linewidth=0.9)
+        path.set_xlabel("easting [m]")
+        path.set_ylabel("northing [m]")
+        path.ticklabel_format(useOffset=False, style="plain")
+        path.tick_params(axis="x", rotation=30)
+        path.axis("equal")
+        for name in ("roll", "pitch", "heading"):
+            angles.plot(thinned[:, place["t_s"]], thinned[:, place[f"{name}_rad"]], linewidth=0.9, label=name)
+        angles.legend(frameon=False)
+        angles.set_xlabel("time [s]")
+        angles.set_ylabel("angle [rad]")
+        for axes in (path, angles):
+            axes.grid(alpha=0.3)
+        return pictures.svg(figure)
+
+
+def _plot(result: Result) -> str | None:
+    if len(result.states) == 0:
+        return None
+    if tuple(result.columns) == tuple(_run.SOLUTION_COLUMNS):
+        return solution_plot(result.states)
+    return attitude_plot(result.states)
+
+
 def _markup(picture: str | None) -> Markup | None:
     return None if picture is None else Markup(picture)
 
@@ -48,10 +80,9 @@ def html(scenario: Loaded, result: Result, view: views.View | None = None) -> st
         loader=PackageLoader("libins", "."), autoescape=select_autoescape(), trim_blocks=True, lstrip_blocks=True
     )
     scored = len(result.states) > 0 and list(result.columns) == list(COLUMNS)
-    plot = _markup(attitude_plot(result.states)) if scored else None
     return environment.get_template("report.html").render(
         summary=result.summary,
-        plot=plot,
+        plot=_markup(_plot(result)),
         logic=_markup(pictures.logic(view)) if view else None,
         lines=_markup(pictures.lines(view, LINES_SPAN_S)) if view and isinstance(scenario, NetScenario) else None,
         cpu=report.cpu_text(result.summary),
