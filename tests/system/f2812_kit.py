@@ -22,7 +22,7 @@ def build(body: str, folder: Path, name: str = "app") -> Path:
     """A program whose main() is these lines."""
     source, out = folder / f"{name}.c", folder / f"{name}.f2812"
     source.write_text(f'#include "DSP281x_Device.h"\nvoid main(void)\n{{\n{body}\n}}\n', encoding="ascii")
-    command = [ROOT / "emu/f2812_sci/f2812-cc", "--lib", ROOT / "build/release/f2812", source, "-o", out]
+    command = [ROOT / "emu/f2812_sci/f2812-cc", source, "-o", out]
     done = subprocess.run([*map(str, command)], capture_output=True, text=True, timeout=WALL_LIMIT_S)
     assert done.returncode == 0, done.stdout + done.stderr
     return out
