@@ -12,6 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 ROOMS: dict[str, tuple[str, str, set[str], set[str]]] = {
     "core": ("libins/core", "ins/", {"ins_core", "ins_coref"}, set()),
     "truth": ("libins/host/truth", "ins_truth/", {"ins_truth"}, {"core"}),
+    "post": ("libins/host/post", "ins_post/", {"ins_post"}, {"core"}),
     "navd": ("libins/host/navd", "ins_nav/", {"ins_nav", "ins-navd"}, {"core", "dds"}),
     "dds": ("libins/host/dds", "ins_dds/", {"ins_dds", "ins_dds_idl"}, {"core", "navd"}),
     "emu_common": ("emu/common", "emu/", {"emu_common"}, set()),
@@ -20,8 +21,8 @@ ROOMS: dict[str, tuple[str, str, set[str], set[str]]] = {
     "python": (
         "bindings/python",
         "libins_py/",
-        {"_run", "_dds", "ins_python_core", "ins_python_coref"},
-        {"core", "truth", "navd", "dds", "emu_common", "emu_8051", "emu_f2812"},
+        {"_run", "_dds", "_post", "ins_python_core", "ins_python_coref"},
+        {"core", "truth", "post", "navd", "dds", "emu_common", "emu_8051", "emu_f2812"},
     ),
     "cpp": ("bindings/cpp", "ins/ins.hpp", {"ins_cpp", "ins_cppf"}, {"core"}),
 }
