@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 from conftest import ROOT
 
+pytestmark = pytest.mark.wall_clock
 WALL_LIMIT_S = 60
 ARM_SAMPLES = 60
 NATIVE = ROOT / "build/release/python/libins/bin/ins-navd"

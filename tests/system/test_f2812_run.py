@@ -260,6 +260,7 @@ def test_bad_faults(ins, variant, lines, words):
     assert all(word in done.stderr for word in words), done.stderr
 
 
+@pytest.mark.wall_clock
 def test_the_outside_plays_the_host(tmp_path):
     """Over a pty at real time: the greeting comes, and what is sent comes back."""
     command = [sys.executable, "-m", "libins", "run", "echo", "--serial", f"scia=pty:{tmp_path / 'tty'}", "--wait"]
