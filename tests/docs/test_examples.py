@@ -13,6 +13,7 @@ INCLUDES = [
     "libins/host/truth/include",
     "libins/host/navd/include",
     "libins/host/dds/include",
+    "libins/host/calib/include",
     "emu/common/include",
     "emu/8051_tlc2543/include",
     "emu/f2812_sci/include",

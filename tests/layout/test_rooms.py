@@ -15,14 +15,15 @@ ROOMS: dict[str, tuple[str, str, set[str], set[str]]] = {
     "post": ("libins/host/post", "ins_post/", {"ins_post"}, {"core"}),
     "navd": ("libins/host/navd", "ins_nav/", {"ins_nav", "ins-navd"}, {"core", "dds"}),
     "dds": ("libins/host/dds", "ins_dds/", {"ins_dds", "ins_dds_idl"}, {"core", "navd"}),
+    "calib": ("libins/host/calib", "ins_calib/", {"ins_calib"}, {"core"}),
     "emu_common": ("emu/common", "emu/", {"emu_common"}, set()),
     "emu_8051": ("emu/8051_tlc2543", "emu_8051/", {"emu_8051"}, {"emu_common"}),
     "emu_f2812": ("emu/f2812_sci", "emu_f2812/", {"emu_f2812", "emu_f2812_parts"}, {"emu_common"}),
     "python": (
         "bindings/python",
         "libins_py/",
-        {"_run", "_dds", "_post", "ins_python_core", "ins_python_coref"},
-        {"core", "truth", "post", "navd", "dds", "emu_common", "emu_8051", "emu_f2812"},
+        {"_run", "_dds", "_calib", "_post", "ins_python_core", "ins_python_coref"},
+        {"core", "truth", "post", "navd", "dds", "calib", "emu_common", "emu_8051", "emu_f2812"},
     ),
     "cpp": ("bindings/cpp", "ins/ins.hpp", {"ins_cpp", "ins_cppf"}, {"core"}),
 }

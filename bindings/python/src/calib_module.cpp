@@ -1,0 +1,148 @@
+/// \file   calib_module.cpp
+/// \brief  The Python module libins._calib over libins_calib: NumPy arrays of float64, one row a pose. SPDX-License-Identifier: MIT
+#include "ins_calib/calib.h"
+#include <array>
+#include <memory>
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/string.h>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace
+{
+using In = nb::ndarray<const double, nb::numpy, nb::c_contig, nb::device::cpu>;
+using Out = nb::ndarray<double, nb::numpy, nb::c_contig>;
+
+/// A new array that owns a copy.
+Out array(const double* data, std::initializer_list<size_t> shape)
+{
+    size_t count = 1;
+    for (const size_t length : shape)
+    {
+        count *= length;
+    }
+    auto copy = std::make_unique<double[]>(count);
+    std::copy(data, data + count, copy.get());
+    double* const raw = copy.release();
+    return Out(raw, shape, nb::capsule(raw, [](void* p) noexcept { delete[] static_cast<double*>(p); }));
+}
+
+/// Shape (n, columns) or a ValueError that names the argument. \return n.
+size_t rows(const In& given, const char* name, size_t columns)
+{
+    if (given.ndim() != 2 || given.shape(1) != columns)
+    {
+        throw std::invalid_argument(std::string(name) + ": an array of shape (n, " + std::to_string(columns) +
+                                    ") is needed");
+    }
+    return given.shape(0);
+}
+
+/// Room for a reason, thrown as a ValueError.
+struct Reason
+{
+    std::array<char, 2048> text{};
+    void check(int status) const
+    {
+        if (status != INS_CALIB_OK)
+        {
+            throw std::invalid_argument(text.data());
+        }
+    }
+};
+
+nb::dict linear(const In& f_b, const In& readings)
+{
+    const size_t poses = rows(f_b, "f_b", 3);
+    const size_t sensors = readings.ndim() == 2 ? readings.shape(1) : 0;
+    if (rows(readings, "readings", sensors) != poses)
+    {
+        throw std::invalid_argument("readings: as many rows as f_b are needed");
+    }
+    std::vector<ins_calib_map_t> maps(sensors);
+    std::vector<double> residuals(poses * sensors);
+    Reason why;
+    why.check(ins_calib_linear(sensors, poses, f_b.data(), readings.data(), maps.data(), residuals.data(),
+                               why.text.data(), why.text.size()));
+    std::vector<double> map, deviation, rms;
+    for (const ins_calib_map_t& m : maps)
+    {
+        map.insert(map.end(), m.map, m.map + 4);
+        deviation.insert(deviation.end(), m.deviation, m.deviation + 4);
+        rms.push_back(m.rms);
+    }
+    nb::dict d;
+    d["map"] = array(map.data(), {sensors, 4});
+    d["deviation"] = array(deviation.data(), {sensors, 4});
+    d["rms"] = array(rms.data(), {sensors});
+    d["residual"] = array(residuals.data(), {poses, sensors});
+    return d;
+}
+
+ins_calib_group_t group_of(int number)
+{
+    if (number != 235 && number != 146)
+    {
+        throw std::invalid_argument("group: 235 or 146 is needed, not " + std::to_string(number));
+    }
+    return number == 235 ? INS_CALIB_235 : INS_CALIB_146;
+}
+
+Out paper_attitudes(int group, double g)
+{
+    std::array<double, 18> f{};
+    ins_calib_paper_attitudes(group_of(group), g, f.data());
+    return array(f.data(), {6, 3});
+}
+
+Out paper_axes(int group, const In& angles, bool exact)
+{
+    if (angles.size() != 6)
+    {
+        throw std::invalid_argument("angles: the six xy, xz, yx, yz, zx, zy [rad] are needed");
+    }
+    std::array<double, 9> axes{};
+    ins_calib_paper_axes(group_of(group), angles.data(), exact ? 1 : 0, axes.data());
+    return array(axes.data(), {3, 3});
+}
+
+nb::dict paper(int group, double g, double T, const In& readings)
+{
+    if (rows(readings, "readings", 6) != 3)
+    {
+        throw std::invalid_argument("readings: three rows are needed, one an accelerometer of the group");
+    }
+    ins_calib_paper_t out;
+    Reason why;
+    why.check(ins_calib_paper(group_of(group), g, T, readings.data(), &out, why.text.data(), why.text.size()));
+    nb::dict d;
+    d["sf"] = array(out.sf, {3});
+    d["bias"] = array(out.bias, {3});
+    d["angles"] = array(out.angle, {6});
+    d["H"] = array(out.H, {INS_CALIB_PAPER_ROWS, 9});
+    d["map"] = array(out.map[0], {3, 4});
+    d["residual"] = array(out.residual, {3, 6});
+    return d;
+}
+} // namespace
+
+NB_MODULE(_calib, m)
+{
+    m.doc() = "Calibration of accelerometers and of triads; see ins_calib/*.h. Refusals are ValueErrors.";
+    m.def("linear", linear, "f_b"_a, "readings"_a,
+          "Linear maps P = map[0] + map[1:] . f from specific force (n, 3) [m/s^2] and readings (n, sensors): "
+          "{map (sensors, 4), deviation (sensors, 4), rms (sensors,), residual (n, sensors)}.");
+    m.def("paper_attitudes", paper_attitudes, "group"_a, "g"_a,
+          "Specific force (6, 3) in the attitudes of table 3 (group 235) or 4 (146).");
+    m.def(
+        "paper_axes", paper_axes, "group"_a, "angles"_a, "exact"_a = true,
+        "Axes of sense (3, 3) of the group under the angles xy, xz, yx, yz, zx, zy [rad]: the printed product (13), or "
+        "(14) to first order.");
+    m.def("paper", paper, "group"_a, "g"_a, "T"_a, "readings"_a,
+          "Equations 21 to 25 on readings (3, 6), P = SF T (b + axis . f): {sf, bias, angles, H, map, residual}.");
+}
