@@ -2,17 +2,12 @@
 /// \brief  What Python reads and pokes on the board of a run. SPDX-License-Identifier: MIT
 #pragma once
 #include "run.hpp"
-#include <memory>
+#include "truth_bind.hpp"
 #include <nanobind/nanobind.h>
 #include <string>
 
 namespace libins
 {
-
-struct Motion
-{
-    std::shared_ptr<ins_motion_t> handle;
-};
 
 const char* part_name(mcs51_part_t part);
 /// Throws std::invalid_argument.

@@ -30,32 +30,6 @@ using libins::Scored;
 namespace
 {
 
-using Sine = std::array<double, 4>; // offset, amplitude, frequency_hz, phase
-
-template <typename Create> Motion motion(Create create)
-{
-    std::array<char, 256> why{};
-    ins_motion_t* made = create(why.data(), why.size());
-    if (made == nullptr)
-    {
-        throw std::invalid_argument(why.data());
-    }
-    return {{made, ins_motion_destroy}};
-}
-
-ins_motion_sine_t sine(const Sine& s)
-{
-    return {s[0], s[1], s[2], s[3]};
-}
-
-/// Rows x columns, owned by the array.
-nb::ndarray<nb::numpy, double, nb::ndim<2>> table(size_t rows, size_t columns, std::vector<double>&& values)
-{
-    auto* kept = new std::vector<double>(std::move(values));
-    const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
-    return {kept->data(), {rows, columns}, owner};
-}
-
 constexpr size_t scored_columns = 31;
 
 std::vector<double> scored_row(const Scored& s)
@@ -134,7 +108,7 @@ nb::ndarray<nb::numpy, double, nb::ndim<2>> scans(const Run& run)
         }
         values.insert(values.end(), scan.code.begin(), scan.code.end());
     }
-    return table(run.scans.size(), 6, std::move(values));
+    return libins::table(run.scans.size(), 6, std::move(values));
 }
 
 nb::dict counters(const Run& run)
@@ -216,76 +190,7 @@ NB_MODULE(_run, m)
     }
     m.attr("WIRES") = wires;
 
-    nb::class_<Motion>(m, "Motion", "A known rotation as a function of time; see ins_truth/motion.h.")
-        .def(
-            "euler",
-            [](const Motion& self, double t)
-            {
-                std::array<double, 3> rpy{};
-                ins_motion_euler(self.handle.get(), t, rpy.data());
-                return rpy;
-            },
-            "t"_a, "Roll, pitch, yaw [rad] at t [s].")
-        .def(
-            "attitude",
-            [](const Motion& self, double t)
-            {
-                std::array<double, 4> q{};
-                ins_motion_attitude(self.handle.get(), t, q.data());
-                return q;
-            },
-            "t"_a, "q_nb, scalar first, at t [s].")
-        .def(
-            "span",
-            [](const Motion& self)
-            {
-                std::array<double, 2> span{};
-                ins_motion_span(self.handle.get(), &span[0], &span[1]);
-                return span;
-            },
-            "First and last instant the motion is known for [s].");
-    m.def(
-        "motion_rate",
-        [](const std::array<double, 3>& w_ib_b, double ramp_s)
-        {
-            const double level[4] = {1.0, 0.0, 0.0, 0.0};
-            return motion([&](char* why, size_t n)
-                          { return ins_motion_create_rate(w_ib_b.data(), level, ramp_s, why, n); });
-        },
-        "w_ib_b"_a, "ramp_s"_a);
-    m.def(
-        "motion_euler",
-        [](const Sine& yaw, const Sine& pitch, const Sine& roll, double ramp_s)
-        {
-            const ins_motion_sines_t sines = {sine(yaw), sine(pitch), sine(roll)};
-            return motion([&](char* why, size_t n) { return ins_motion_create_euler(&sines, ramp_s, why, n); });
-        },
-        "yaw"_a, "pitch"_a, "roll"_a, "ramp_s"_a);
-    m.def(
-        "motion_coning",
-        [](double half_angle, double frequency_hz, double ramp_s)
-        {
-            return motion([&](char* why, size_t n)
-                          { return ins_motion_create_coning(half_angle, frequency_hz, ramp_s, why, n); });
-        },
-        "half_angle"_a, "frequency_hz"_a, "ramp_s"_a);
-    m.def(
-        "motion_table",
-        [](const std::vector<double>& t, const std::vector<double>& yaw, const std::vector<double>& pitch,
-           const std::vector<double>& roll, double ramp_s)
-        {
-            if (yaw.size() != t.size() || pitch.size() != t.size() || roll.size() != t.size())
-            {
-                throw std::invalid_argument("t, yaw, pitch and roll must have the same length");
-            }
-            return motion(
-                [&](char* why, size_t n) {
-                    return ins_motion_create_table(t.size(), t.data(), yaw.data(), pitch.data(), roll.data(), ramp_s,
-                                                   why, n);
-                });
-        },
-        "t"_a, "yaw"_a, "pitch"_a, "roll"_a, "ramp_s"_a);
-
+    libins::bind_motions(m);
     nb::class_<ins_gyro_config_t>(m, "Gyro", "Three rate gyros with amplifiers; see ins_truth/gyro.h.")
         .def(
             "set",

@@ -1,6 +1,7 @@
 /// \file   motion.c
 /// \brief  Closed forms of attitude and body rate; Gauss-Legendre for the increments. Frames b and n; rad, s.
 /// SPDX-License-Identifier: MIT
+#include "gauss_internal.h"
 #include "ins_truth/elementary.h"
 #include "motion_internal.h"
 #include "ramp_internal.h"
@@ -171,35 +172,16 @@ void ins_motion_rate(const ins_motion_t* self, double t, double w_ib_b[3])
     }
 }
 
-/// The first instant after t where some derivative of the motion jumps.
-static double next_break(const ins_motion_t* self, double t)
+double ins_motion_next_break(const ins_motion_t* self, double t)
 {
     double next = self->kind == INS_MOTION_TABLE ? ins_spline_next_knot(&self->of.table, t) : (double)INFINITY;
     next = self->ramp_s > t && self->ramp_s < next ? self->ramp_s : next;
     return self->ramp_s > 0.0 && 0.0 > t && 0.0 < next ? 0.0 : next;
 }
 
-/// 10 nodes on [a, b]; Abramowitz and Stegun 1964, table 25.4.
-static void add_panel(const ins_motion_t* self, double a, double b, double sum[3])
+static void rate_at(const void* self, double t, double value[])
 {
-    static const double node[5][2] = {{0.14887433898163121, 0.29552422471475287},
-                                      {0.43339539412924719, 0.26926671930999636},
-                                      {0.67940956829902441, 0.21908636251598204},
-                                      {0.86506336668898451, 0.14945134915058059},
-                                      {0.97390652851717172, 0.066671344308688138}};
-    const double half = 0.5 * (b - a);
-    const double middle = 0.5 * (a + b);
-    for (int k = 0; k < 5; k++)
-    {
-        double before[3];
-        double after[3];
-        ins_motion_rate(self, middle - half * node[k][0], before);
-        ins_motion_rate(self, middle + half * node[k][0], after);
-        for (int i = 0; i < 3; i++)
-        {
-            sum[i] += half * node[k][1] * (before[i] + after[i]);
-        }
-    }
+    ins_motion_rate(self, t, value);
 }
 
 void ins_motion_increment(const ins_motion_t* self, double t0, double t1, double dtheta_b[3])
@@ -223,13 +205,13 @@ void ins_motion_increment(const ins_motion_t* self, double t0, double t1, double
     }
     while (t < end)
     {
-        const double next = next_break(self, t);
+        const double next = ins_motion_next_break(self, t);
         const double stop = next < end ? next : end;
         const double panels = floor((stop - t) / self->panel_s) + 1.0;
         const double width = (stop - t) / panels;
         for (double k = 0.0; k < panels; k += 1.0)
         {
-            add_panel(self, t + k * width, t + (k + 1.0) * width, sum);
+            ins_gauss_add(rate_at, self, t + k * width, t + (k + 1.0) * width, 3, sum);
         }
         t = stop;
     }

@@ -42,4 +42,7 @@ struct ins_motion_t
     } of;
 };
 
+/// The first instant after t where some derivative of the motion jumps.
+double ins_motion_next_break(const ins_motion_t* self, double t);
+
 #endif // INS_TRUTH_MOTION_INTERNAL_H_INCLUDED

@@ -50,4 +50,9 @@ typedef struct ins_track_path_t
 
 void ins_track_path(const ins_track_t* self, double t, ins_track_path_t* out);
 
+/// The first instant after t where some derivative of rate or specific force jumps.
+double ins_track_next_break(const ins_track_t* self, double t);
+/// Half a period of the fastest motion of path and attitude [s]; infinity where nothing swings.
+double ins_track_panel(const ins_track_t* self);
+
 #endif // INS_TRUTH_TRACK_INTERNAL_H_INCLUDED

@@ -2,8 +2,10 @@
 /// \brief  Curves in n and the way along them: position, velocity, acceleration. m, s.
 /// SPDX-License-Identifier: MIT
 #include "ins_truth/elementary.h"
+#include "motion_internal.h"
 #include "ramp_internal.h"
 #include "track_internal.h"
+#include <math.h>
 
 /// Way, speed and acceleration along the path.
 static void way_at(const ins_track_speed_t* speed, double t, double way[3])
@@ -99,4 +101,31 @@ void ins_track_path(const ins_track_t* self, double t, ins_track_path_t* out)
         out->a[i] = out->bend[i] * u[1] * u[1] + out->tangent[i] * u[2];
     }
     out->speed = u[1];
+}
+
+double ins_track_next_break(const ins_track_t* self, double t)
+{
+    const ins_track_speed_t* const s = &self->speed;
+    const double brake_s = s->start_s + s->accelerate_s + s->cruise_s;
+    const double stop[4] = {s->start_s, s->start_s + s->accelerate_s, brake_s, brake_s + s->brake_s};
+    double next = self->attitude != NULL ? ins_motion_next_break(self->attitude, t) : (double)INFINITY;
+    if (self->kind == INS_TRACK_WAYPOINTS)
+    {
+        const double knot = ins_spline_next_knot(&self->table, t);
+        return knot < next ? knot : next;
+    }
+    for (int i = 0; i < 4; i++)
+    {
+        next = stop[i] > t && stop[i] < next ? stop[i] : next;
+    }
+    return next;
+}
+
+double ins_track_panel(const ins_track_t* self)
+{
+    double u_rate = 0.0; // [rad/s]
+    u_rate = self->kind == INS_TRACK_CIRCLE ? self->speed.speed / fabs(self->curve.radius) : u_rate;
+    u_rate = self->kind == INS_TRACK_EIGHT ? 2.0 * self->speed.speed * self->curve.u_per_way : u_rate;
+    const double path_s = u_rate > 0.0 ? INS_TRUTH_PI / u_rate : (double)INFINITY;
+    return self->attitude != NULL && self->attitude->panel_s < path_s ? self->attitude->panel_s : path_s;
 }
