@@ -26,6 +26,7 @@ OWN_NAMES = {
     "static ins_accelfit_motion_t motion[N];",
     "ins/batch.h": "ins_real q_nb0[4 * N] = {0}, dtheta_b[3 * N] = {0};",
     "ins/gps_axis.h": "ins_real var[4] = {0};",
+    "ins/kf15.h": "static ins_strapdown_t s; static ins_real sigma[15]; static ins_kf15_sensors_t sensors;",
     "ins/q31.h": "int32_t q_nb0[4] = {0}, dtheta_b[3] = {0};",
 }
 

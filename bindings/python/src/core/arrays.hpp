@@ -189,6 +189,7 @@ void bind_navigation(nb::module_& m);
 void bind_geodesy(nb::module_& m);
 void bind_sensors(nb::module_& m);
 void bind_kalman(nb::module_& m);
+void bind_kf15(nb::module_& m);
 void bind_vehicle(nb::module_& m);
 void bind_serial(nb::module_& m);
 void bind_packets(nb::module_& m);

@@ -122,6 +122,7 @@ NB_MODULE(LIBINS_MODULE, m)
     bind_geodesy(m);
     bind_sensors(m);
     bind_kalman(m);
+    bind_kf15(m);
     bind_vehicle(m);
     bind_serial(m);
     bind_packets(m);

@@ -18,6 +18,8 @@ pub const INS_HS_REQUEST: u32 = 170;
 pub const INS_HS_READY: u32 = 187;
 pub const INS_HS_ACCEPT: u32 = 0;
 pub const INS_HS_RESEND: u32 = 255;
+pub const INS_KF15_N: u32 = 15;
+pub const INS_KF15_ROW: u32 = 16;
 pub const INS_LINK_REQUEST: u32 = 85;
 pub const INS_LINK_READY: u32 = 68;
 pub const INS_LINK_PROBE_EVERY: u32 = 16;
@@ -857,6 +859,219 @@ extern "C" {
     #[doc = "included, and then self is unchanged."]
     pub fn ins_hist2_step(self_: *mut ins_hist2_t, dtheta_b: *const ins_real) -> ins_status_t;
 }
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_markov_t {
+    #[doc = "transition over one step"]
+    pub phi: ins_real,
+    #[doc = "variance that a step adds"]
+    pub q: ins_real,
+}
+extern "C" {
+    #[doc = "\\param[in] dt  step [s], >= 0. \\param[in] tau  time constant [s], > 0. \\param[in] sigma  standard deviation of x, >= 0."]
+    #[doc = "\\return INS_E_RANGE, and self unchanged, if one is not, or not a number."]
+    pub fn ins_markov_init(self_: *mut ins_markov_t, dt: ins_real, tau: ins_real, sigma: ins_real) -> ins_status_t;
+}
+#[doc = "What an IMU gives for one interval, each integrated in the moving body frame."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_increment_t {
+    #[doc = "of the angular rate w_ib_b [rad]"]
+    pub theta_b: [ins_real; 3usize],
+    #[doc = "of the specific force f_b [m/s]"]
+    pub v_b: [ins_real; 3usize],
+}
+#[doc = "Owned by the caller. Start with ins_sculling_init()."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_sculling_t {
+    #[doc = "attitude at the end of the last interval"]
+    pub q_nb: [ins_real; 4usize],
+    #[doc = "previous increments, newest first"]
+    pub prev: [ins_increment_t; 3usize],
+    #[doc = "as in ins_attitude_t"]
+    pub form: uint_least8_t,
+    #[doc = "previous increments held"]
+    pub count: uint_least8_t,
+}
+extern "C" {
+    #[doc = "\\return as ins_attitude_init."]
+    pub fn ins_sculling_init(self_: *mut ins_sculling_t, form: ::core::ffi::c_int, q_nb: *const ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Next interval: attitude and velocity increment. Angles as in ins_attitude_step."]
+    #[doc = "\\param[out] dv_b  [3] specific force integrated in b as it stood at the start of the interval [m/s]; not in the increment."]
+    #[doc = "\\return INS_OK; INS_S_START; INS_E_RANGE for NaN, infinity or |component of theta_b| > pi; nothing is changed then."]
+    pub fn ins_sculling_step(self_: *mut ins_sculling_t, increment: *const ins_increment_t, dv_b: *mut ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "The correction alone, for any form: as ins_coning_phi. \\param[in] increments  [ins_coning_samples(form)], oldest first."]
+    #[doc = "\\return INS_OK; INS_E_RANGE if there is no such form. NaN in gives NaN out."]
+    pub fn ins_sculling_dv(form: ::core::ffi::c_int, increments: *const ins_increment_t, dv_b: *mut ins_real) -> ins_status_t;
+}
+#[doc = "Latitude, longitude [rad] and height above WGS-84 [m]: the sum of both."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_position_t {
+    pub anchor: [ins_real; 3usize],
+    pub offset: [ins_real; 3usize],
+}
+#[doc = "Owned by the caller. Start with ins_strapdown_init(); read sculling.q_nb, v_n and position."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_strapdown_t {
+    #[doc = "its q_nb is the attitude"]
+    pub sculling: ins_sculling_t,
+    #[doc = "velocity over ground [m/s]"]
+    pub v_n: [ins_real; 3usize],
+    pub position: ins_position_t,
+    #[doc = "of the anchor"]
+    pub sin_lat: ins_real,
+    #[doc = "of the anchor"]
+    pub cos_lat: ins_real,
+    #[doc = "[s]"]
+    pub half_period: ins_real,
+    #[doc = "half of the last step's change of velocity [m/s]"]
+    pub half_dv: [ins_real; 3usize],
+    #[doc = "and of latitude [rad]"]
+    pub half_dlat: ins_real,
+}
+extern "C" {
+    #[doc = "\\return INS_OK; INS_E_RANGE for what ins_attitude_init refuses, NaN, a period not in (0, INS_STRAPDOWN_PERIOD_MAX], a speed above INS_STRAPDOWN_SPEED_MAX, |height| > 1e6 m,"]
+    #[doc = "        |longitude| > 2 pi, an offset of more than 1e-3 rad, or a latitude too near to a pole."]
+    pub fn ins_strapdown_init(
+        self_: *mut ins_strapdown_t,
+        form: ::core::ffi::c_int,
+        period_s: ins_real,
+        q_nb: *const ins_real,
+        v_n: *const ins_real,
+        position: *const ins_position_t,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\return INS_OK; INS_S_START; INS_E_RANGE as ins_sculling_step, or if the step would lead too near to a pole; nothing is changed"]
+    #[doc = "        then."]
+    pub fn ins_strapdown_step(self_: *mut ins_strapdown_t, increment: *const ins_increment_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Another point of the body: an antenna, a wheel."]
+    #[doc = "\\param[in] l_b  [3] from the IMU to the point [m]. \\param[in] w_ib_b  [3] angular rate now, e.g. increment / period [rad/s]."]
+    #[doc = "\\param[out] v_n  [3] its velocity over ground [m/s]. \\param[out] position  of the point."]
+    pub fn ins_strapdown_point(
+        self_: *const ins_strapdown_t,
+        l_b: *const ins_real,
+        w_ib_b: *const ins_real,
+        v_n: *mut ins_real,
+        position: *mut ins_position_t,
+    );
+}
+extern "C" {
+    #[doc = "From a to b along the meridian and the parallel through a, and down [m]. Offsets and anchors are subtracted one from the other"]
+    #[doc = "first, so nothing is lost in float."]
+    pub fn ins_position_difference(a: *const ins_position_t, b: *const ins_position_t, ned: *mut ins_real);
+}
+#[doc = "attitude, in n [rad]"]
+pub const INS_KF15_PHI: _bindgen_ty_8 = 0;
+#[doc = "velocity, in n [m/s]"]
+pub const INS_KF15_V: _bindgen_ty_8 = 3;
+#[doc = "position, north, east, down [m]"]
+pub const INS_KF15_P: _bindgen_ty_8 = 6;
+#[doc = "gyro bias, in b [rad/s]"]
+pub const INS_KF15_BG: _bindgen_ty_8 = 9;
+#[doc = "accelerometer bias, in b [m/s^2]"]
+pub const INS_KF15_BA: _bindgen_ty_8 = 12;
+#[doc = "Where three errors begin."]
+pub type _bindgen_ty_8 = ::core::ffi::c_uint;
+#[doc = "Owned by the caller; readable. Start with ins_kf15_init()."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_kf15_t {
+    #[doc = "symmetric; P(i,j) at INS_KF15_ROW i + j"]
+    pub P: [ins_real; 240usize],
+    #[doc = "gain of the last update that was not refused"]
+    pub K: [ins_real; 16usize],
+}
+impl Default for ins_kf15_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
+#[doc = "What the sensors add."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_kf15_sensors_t {
+    #[doc = "angle random walk [rad/sqrt(s)]"]
+    pub arw: ins_real,
+    #[doc = "velocity random walk [m/s/sqrt(s)]"]
+    pub vrw: ins_real,
+    #[doc = "gyro bias: Gauss-Markov, standard deviation [rad/s]"]
+    pub bg_sigma: ins_real,
+    #[doc = "its time constant [s]"]
+    pub bg_tau: ins_real,
+    #[doc = "accelerometer bias [m/s^2]"]
+    pub ba_sigma: ins_real,
+    #[doc = "[s]"]
+    pub ba_tau: ins_real,
+}
+#[doc = "F dt and Q of one step. Start with ins_kf15_model_init(). Members are private."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_kf15_model_t {
+    #[doc = "C_nb dt [s]"]
+    pub C: [ins_real; 9usize],
+    #[doc = "w_in_n dt [rad]"]
+    pub turn: [ins_real; 3usize],
+    #[doc = "f_n dt [m/s]"]
+    pub dv: [ins_real; 3usize],
+    #[doc = "dt/(R_M + h), dt/(R_N + h), dt tan(lat)/(R_N + h) [s/m]"]
+    pub curve: [ins_real; 3usize],
+    #[doc = "d dv / d v, rows N, E, and D without its last element"]
+    pub coriolis: [ins_real; 8usize],
+    #[doc = "2 g dt/R [1/s]"]
+    pub fall: ins_real,
+    #[doc = "[s]"]
+    pub dt: ins_real,
+    #[doc = "[rad^2]"]
+    pub q_phi: ins_real,
+    #[doc = "[m^2/s^2]"]
+    pub q_v: ins_real,
+    pub bg: ins_markov_t,
+    pub ba: ins_markov_t,
+}
+extern "C" {
+    #[doc = "\\param[in] sigma  [15] standard deviations of the start. \\return INS_OK; INS_E_RANGE: one is negative or not a number."]
+    pub fn ins_kf15_init(self_: *mut ins_kf15_t, sigma: *const ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\param[in] dt  of one step [s], > 0. \\return INS_OK; INS_E_RANGE: dt, a noise or a time constant is out of range."]
+    pub fn ins_kf15_model_init(self_: *mut ins_kf15_model_t, dt: ins_real, sensors: *const ins_kf15_sensors_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "F dt of the step that ended at `at`. \\param[in] at  attitude, velocity and position. \\param[in] v_b  [3] of that step [m/s]."]
+    pub fn ins_kf15_model(self_: *mut ins_kf15_model_t, at: *const ins_strapdown_t, v_b: *const ins_real);
+}
+extern "C" {
+    #[doc = "I + F dt, for a smoother. \\param[out] Phi  [15 15]"]
+    pub fn ins_kf15_transition(self_: *const ins_kf15_model_t, Phi: *mut ins_real);
+}
+extern "C" {
+    #[doc = "P = (I + F dt) P (I + F dt)' + Q."]
+    pub fn ins_kf15_propagate(self_: *mut ins_kf15_t, model: *const ins_kf15_model_t);
+}
+extern "C" {
+    #[doc = "One scalar z = h x + noise; what K v corrects is the caller's. \\param[in] h  [15]; zeros cost nothing."]
+    #[doc = "\\return INS_OK, self->K is the gain; INS_E_GATE: outside the gate; INS_E_RANGE: v or h P h' is not a number, or r is not"]
+    #[doc = "positive. Refused means that self is unchanged."]
+    pub fn ins_kf15_update(self_: *mut ins_kf15_t, h: *const ins_real, z: *mut ins_innovation_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "The same for h = 1 at index, 0 elsewhere. \\return also INS_E_RANGE for an index above 14."]
+    pub fn ins_kf15_update_state(self_: *mut ins_kf15_t, index: ::core::ffi::c_uint, z: *mut ins_innovation_t) -> ins_status_t;
+}
 extern "C" {
     #[doc = "One more octet."]
     pub fn ins_link_crc(crc: u16, octet: ins_octet_t) -> u16;
@@ -926,32 +1141,19 @@ extern "C" {
     #[doc = "As ins_hs_host_tick()."]
     pub fn ins_link_host_tick(self_: *mut ins_link_host_t, now: u16);
 }
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_markov_t {
-    #[doc = "transition over one step"]
-    pub phi: ins_real,
-    #[doc = "variance that a step adds"]
-    pub q: ins_real,
-}
-extern "C" {
-    #[doc = "\\param[in] dt  step [s], >= 0. \\param[in] tau  time constant [s], > 0. \\param[in] sigma  standard deviation of x, >= 0."]
-    #[doc = "\\return INS_E_RANGE, and self unchanged, if one is not, or not a number."]
-    pub fn ins_markov_init(self_: *mut ins_markov_t, dt: ins_real, tau: ins_real, sigma: ins_real) -> ins_status_t;
-}
-pub const INS_NAV_BLOCK_ALIGNED: _bindgen_ty_8 = 1;
-pub const INS_NAV_BLOCK_INTEGER: _bindgen_ty_8 = 2;
-pub const INS_NAV_BLOCK_FRACTION: _bindgen_ty_8 = 4;
-pub const INS_NAV_BLOCK_POSITION: _bindgen_ty_8 = 8;
-pub const INS_NAV_BLOCK_FILTER: _bindgen_ty_8 = 16;
-pub const INS_NAV_BLOCK_ZONE_119: _bindgen_ty_8 = 32;
-pub const INS_NAV_BLOCK_GATED: _bindgen_ty_8 = 64;
-pub const INS_NAV_BLOCK_LINE_ERROR: _bindgen_ty_8 = 128;
-pub const INS_NAV_BLOCK_GAP: _bindgen_ty_8 = 256;
-pub const INS_NAV_BLOCK_WATCHDOG: _bindgen_ty_8 = 512;
-pub const INS_NAV_BLOCK_CLIPPED: _bindgen_ty_8 = 1024;
-pub const INS_NAV_BLOCK_STATUS_ALL: _bindgen_ty_8 = 2047;
-pub type _bindgen_ty_8 = ::core::ffi::c_uint;
+pub const INS_NAV_BLOCK_ALIGNED: _bindgen_ty_9 = 1;
+pub const INS_NAV_BLOCK_INTEGER: _bindgen_ty_9 = 2;
+pub const INS_NAV_BLOCK_FRACTION: _bindgen_ty_9 = 4;
+pub const INS_NAV_BLOCK_POSITION: _bindgen_ty_9 = 8;
+pub const INS_NAV_BLOCK_FILTER: _bindgen_ty_9 = 16;
+pub const INS_NAV_BLOCK_ZONE_119: _bindgen_ty_9 = 32;
+pub const INS_NAV_BLOCK_GATED: _bindgen_ty_9 = 64;
+pub const INS_NAV_BLOCK_LINE_ERROR: _bindgen_ty_9 = 128;
+pub const INS_NAV_BLOCK_GAP: _bindgen_ty_9 = 256;
+pub const INS_NAV_BLOCK_WATCHDOG: _bindgen_ty_9 = 512;
+pub const INS_NAV_BLOCK_CLIPPED: _bindgen_ty_9 = 1024;
+pub const INS_NAV_BLOCK_STATUS_ALL: _bindgen_ty_9 = 2047;
+pub type _bindgen_ty_9 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_nav_block_t {
@@ -978,23 +1180,23 @@ extern "C" {
     #[doc = "\\return INS_OK; INS_E_RANGE for another version, bits that are always 0, or components that are no quaternion's; nav is then unchanged."]
     pub fn ins_nav_block_get(block: *const ins_octet_t, nav: *mut ins_nav_block_t) -> ins_status_t;
 }
-pub const INS_NMEA_NOTHING: _bindgen_ty_9 = 0;
-pub const INS_NMEA_GGA: _bindgen_ty_9 = 1;
-pub const INS_NMEA_RMC: _bindgen_ty_9 = 2;
-pub const INS_NMEA_VTG: _bindgen_ty_9 = 3;
+pub const INS_NMEA_NOTHING: _bindgen_ty_10 = 0;
+pub const INS_NMEA_GGA: _bindgen_ty_10 = 1;
+pub const INS_NMEA_RMC: _bindgen_ty_10 = 2;
+pub const INS_NMEA_VTG: _bindgen_ty_10 = 3;
 #[doc = "What an octet led to."]
-pub type _bindgen_ty_9 = ::core::ffi::c_uint;
-pub const INS_NMEA_TIME: _bindgen_ty_10 = 1;
-pub const INS_NMEA_POSITION: _bindgen_ty_10 = 2;
-pub const INS_NMEA_SATS: _bindgen_ty_10 = 4;
-pub const INS_NMEA_HDOP: _bindgen_ty_10 = 8;
-pub const INS_NMEA_ALTITUDE: _bindgen_ty_10 = 16;
-pub const INS_NMEA_GEOID: _bindgen_ty_10 = 32;
-pub const INS_NMEA_SPEED: _bindgen_ty_10 = 64;
-pub const INS_NMEA_COURSE: _bindgen_ty_10 = 128;
-pub const INS_NMEA_DATE: _bindgen_ty_10 = 256;
-#[doc = "Bits of ins_nmea_fix_t.has."]
 pub type _bindgen_ty_10 = ::core::ffi::c_uint;
+pub const INS_NMEA_TIME: _bindgen_ty_11 = 1;
+pub const INS_NMEA_POSITION: _bindgen_ty_11 = 2;
+pub const INS_NMEA_SATS: _bindgen_ty_11 = 4;
+pub const INS_NMEA_HDOP: _bindgen_ty_11 = 8;
+pub const INS_NMEA_ALTITUDE: _bindgen_ty_11 = 16;
+pub const INS_NMEA_GEOID: _bindgen_ty_11 = 32;
+pub const INS_NMEA_SPEED: _bindgen_ty_11 = 64;
+pub const INS_NMEA_COURSE: _bindgen_ty_11 = 128;
+pub const INS_NMEA_DATE: _bindgen_ty_11 = 256;
+#[doc = "Bits of ins_nmea_fix_t.has."]
+pub type _bindgen_ty_11 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_nmea_fix_t {
@@ -1066,10 +1268,10 @@ extern "C" {
     #[doc = "An octet came. \\return INS_NMEA_GGA, RMC or VTG: self->fix has it; else INS_NMEA_NOTHING."]
     pub fn ins_nmea_rx(self_: *mut ins_nmea_t, octet: ins_octet_t) -> ::core::ffi::c_int;
 }
-pub const INS_PVA_POSITION: _bindgen_ty_11 = 0;
-pub const INS_PVA_VELOCITY: _bindgen_ty_11 = 1;
-pub const INS_PVA_ACCELERATION: _bindgen_ty_11 = 2;
-pub type _bindgen_ty_11 = ::core::ffi::c_uint;
+pub const INS_PVA_POSITION: _bindgen_ty_12 = 0;
+pub const INS_PVA_VELOCITY: _bindgen_ty_12 = 1;
+pub const INS_PVA_ACCELERATION: _bindgen_ty_12 = 2;
+pub type _bindgen_ty_12 = ::core::ffi::c_uint;
 #[doc = "Owned by the caller; readable."]
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
@@ -1250,43 +1452,6 @@ extern "C" {
     #[doc = "\\return INS_OK; INS_S_START for the first two, where Q(1) and Q(2) of the start are returned; INS_E_RANGE, self unchanged."]
     pub fn ins_reuse_step(self_: *mut ins_reuse_t, dtheta_b: *const ins_real, q_nb: *mut ins_real) -> ins_status_t;
 }
-#[doc = "What an IMU gives for one interval, each integrated in the moving body frame."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_increment_t {
-    #[doc = "of the angular rate w_ib_b [rad]"]
-    pub theta_b: [ins_real; 3usize],
-    #[doc = "of the specific force f_b [m/s]"]
-    pub v_b: [ins_real; 3usize],
-}
-#[doc = "Owned by the caller. Start with ins_sculling_init()."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_sculling_t {
-    #[doc = "attitude at the end of the last interval"]
-    pub q_nb: [ins_real; 4usize],
-    #[doc = "previous increments, newest first"]
-    pub prev: [ins_increment_t; 3usize],
-    #[doc = "as in ins_attitude_t"]
-    pub form: uint_least8_t,
-    #[doc = "previous increments held"]
-    pub count: uint_least8_t,
-}
-extern "C" {
-    #[doc = "\\return as ins_attitude_init."]
-    pub fn ins_sculling_init(self_: *mut ins_sculling_t, form: ::core::ffi::c_int, q_nb: *const ins_real) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "Next interval: attitude and velocity increment. Angles as in ins_attitude_step."]
-    #[doc = "\\param[out] dv_b  [3] specific force integrated in b as it stood at the start of the interval [m/s]; not in the increment."]
-    #[doc = "\\return INS_OK; INS_S_START; INS_E_RANGE for NaN, infinity or |component of theta_b| > pi; nothing is changed then."]
-    pub fn ins_sculling_step(self_: *mut ins_sculling_t, increment: *const ins_increment_t, dv_b: *mut ins_real) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "The correction alone, for any form: as ins_coning_phi. \\param[in] increments  [ins_coning_samples(form)], oldest first."]
-    #[doc = "\\return INS_OK; INS_E_RANGE if there is no such form. NaN in gives NaN out."]
-    pub fn ins_sculling_dv(form: ::core::ffi::c_int, increments: *const ins_increment_t, dv_b: *mut ins_real) -> ins_status_t;
-}
 extern "C" {
     #[doc = "\\return 0, or the INS_SELFTEST_* of what failed, or-ed."]
     pub fn ins_selftest() -> ::core::ffi::c_uint;
@@ -1385,67 +1550,6 @@ extern "C" {
     #[doc = "\\param[out] map  [4] of accelerometer `index`: bias, axis. \\return INS_OK; INS_E_STATE while the attitudes seen do not fix it;"]
     #[doc = "INS_E_RANGE for a wrong index."]
     pub fn ins_linfit_solve(self_: *const ins_linfit_t, index: ::core::ffi::c_uint, map: *mut ins_real) -> ins_status_t;
-}
-#[doc = "Latitude, longitude [rad] and height above WGS-84 [m]: the sum of both."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_position_t {
-    pub anchor: [ins_real; 3usize],
-    pub offset: [ins_real; 3usize],
-}
-#[doc = "Owned by the caller. Start with ins_strapdown_init(); read sculling.q_nb, v_n and position."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_strapdown_t {
-    #[doc = "its q_nb is the attitude"]
-    pub sculling: ins_sculling_t,
-    #[doc = "velocity over ground [m/s]"]
-    pub v_n: [ins_real; 3usize],
-    pub position: ins_position_t,
-    #[doc = "of the anchor"]
-    pub sin_lat: ins_real,
-    #[doc = "of the anchor"]
-    pub cos_lat: ins_real,
-    #[doc = "[s]"]
-    pub half_period: ins_real,
-    #[doc = "half of the last step's change of velocity [m/s]"]
-    pub half_dv: [ins_real; 3usize],
-    #[doc = "and of latitude [rad]"]
-    pub half_dlat: ins_real,
-}
-extern "C" {
-    #[doc = "\\return INS_OK; INS_E_RANGE for what ins_attitude_init refuses, NaN, a period not in (0, INS_STRAPDOWN_PERIOD_MAX], a speed above INS_STRAPDOWN_SPEED_MAX, |height| > 1e6 m,"]
-    #[doc = "        |longitude| > 2 pi, an offset of more than 1e-3 rad, or a latitude too near to a pole."]
-    pub fn ins_strapdown_init(
-        self_: *mut ins_strapdown_t,
-        form: ::core::ffi::c_int,
-        period_s: ins_real,
-        q_nb: *const ins_real,
-        v_n: *const ins_real,
-        position: *const ins_position_t,
-    ) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "\\return INS_OK; INS_S_START; INS_E_RANGE as ins_sculling_step, or if the step would lead too near to a pole; nothing is changed"]
-    #[doc = "        then."]
-    pub fn ins_strapdown_step(self_: *mut ins_strapdown_t, increment: *const ins_increment_t) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "Another point of the body: an antenna, a wheel."]
-    #[doc = "\\param[in] l_b  [3] from the IMU to the point [m]. \\param[in] w_ib_b  [3] angular rate now, e.g. increment / period [rad/s]."]
-    #[doc = "\\param[out] v_n  [3] its velocity over ground [m/s]. \\param[out] position  of the point."]
-    pub fn ins_strapdown_point(
-        self_: *const ins_strapdown_t,
-        l_b: *const ins_real,
-        w_ib_b: *const ins_real,
-        v_n: *mut ins_real,
-        position: *mut ins_position_t,
-    );
-}
-extern "C" {
-    #[doc = "From a to b along the meridian and the parallel through a, and down [m]. Offsets and anchors are subtracted one from the other"]
-    #[doc = "first, so nothing is lost in float."]
-    pub fn ins_position_difference(a: *const ins_position_t, b: *const ins_position_t, ned: *mut ins_real);
 }
 #[doc = "Start with ins_thesis_init()."]
 #[repr(C)]
@@ -1571,13 +1675,13 @@ extern "C" {
     #[doc = "As ins_tm_inverse(), by equations 5.8 and 5.9."]
     pub fn ins_tm_thesis_inverse(self_: *const ins_tm_t, en: *const ins_real, lat_lon: *mut ins_real) -> ins_status_t;
 }
-pub const INS_UNICYCLE_EAST: _bindgen_ty_12 = 0;
-pub const INS_UNICYCLE_NORTH: _bindgen_ty_12 = 1;
-pub const INS_UNICYCLE_HEADING: _bindgen_ty_12 = 2;
-pub const INS_UNICYCLE_SPEED: _bindgen_ty_12 = 3;
-pub const INS_UNICYCLE_BIAS: _bindgen_ty_12 = 4;
-pub const INS_UNICYCLE_SCALE: _bindgen_ty_12 = 5;
-pub type _bindgen_ty_12 = ::core::ffi::c_uint;
+pub const INS_UNICYCLE_EAST: _bindgen_ty_13 = 0;
+pub const INS_UNICYCLE_NORTH: _bindgen_ty_13 = 1;
+pub const INS_UNICYCLE_HEADING: _bindgen_ty_13 = 2;
+pub const INS_UNICYCLE_SPEED: _bindgen_ty_13 = 3;
+pub const INS_UNICYCLE_BIAS: _bindgen_ty_13 = 4;
+pub const INS_UNICYCLE_SCALE: _bindgen_ty_13 = 5;
+pub type _bindgen_ty_13 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_unicycle_config_t {

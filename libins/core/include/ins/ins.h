@@ -20,6 +20,7 @@
 #include "ins/hist2.h"
 #include "ins/ins_math.h"
 #include "ins/kalman.h"
+#include "ins/kf15.h"
 #include "ins/link.h"
 #include "ins/markov.h"
 #include "ins/nav_block.h"
