@@ -70,7 +70,7 @@ HEADER_EXAMPLES = [
 def only_double(example: str) -> bool:
     """The host's and the emulator's libraries have one number type."""
     return (
-        re.search(r"\b(ins_(nav(?!_block)|dds|motion|gyro|track|gps(?!_axis))|emu|acq_board)_\w+", example) is not None
+        re.search(r"\b(ins_(nav(?!_block)|dds|motion|gyro|accels|track|gps(?!_axis))|emu|acq_board)_\w+", example) is not None
     )
 
 

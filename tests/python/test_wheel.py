@@ -13,7 +13,7 @@ import pytest
 from packaging.requirements import Requirement
 from reference import ROOT
 
-IMAGES = ("acq_default", "acq_s3_paper", "acq_80ms_seq", "acq_57600")
+IMAGES = ("acq_default", "acq_s3_paper", "acq_80ms_seq", "acq_57600", "acq_six")
 
 PROGRAM = """
 import numpy as np

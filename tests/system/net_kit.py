@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import libins
-from libins import _run, machine, scenario
+from libins import _run, machine, motions, scenario
 
 FIRMWARE = Path(libins.__file__).parent / "firmware"
 ECHO = str(FIRMWARE / "echo.f2812")
@@ -38,7 +38,7 @@ def add_acquisition(net: Any, seed: int = 1) -> Any:
     config.baud = tables.link.baud
     for address, octets in loaded.image:
         config.add_segment(address, octets)
-    board = net.acq("acq", config, machine.motion_of(loaded), gyro)
+    board = net.acq("acq", config, motions.motion_of(loaded), gyro)
     n = tables.nav
     assert n is not None
     nav = _run.nav(n.period_s, n.block_len, n.sequence, n.form, n.rate_order, n.skew_s, gyro)

@@ -65,6 +65,7 @@ def parser() -> argparse.ArgumentParser:
     r.add_argument("--junit", type=Path, metavar="F.xml", help="write a test case for every expectation")
     r.add_argument("--report", type=Path, metavar="F.html", help="write a report with plots")
     r.add_argument("--states", type=Path, metavar="F.csv", help="write every navigation state beside its truth")
+    r.add_argument("--scans", type=Path, metavar="F.csv", help="write every scan of the board: instants and codes")
     r.add_argument("--trace", type=Path, metavar="F.csv", help="write every edge of every traced wire")
     seeing.add_options(r)
     r.add_argument("--seed", type=int, metavar="N")
@@ -296,7 +297,9 @@ def _run_one(loaded: Loaded, options: argparse.Namespace, handle: Any, number: i
 
         _write(place(options.profile), profile.text(result.summary["observed"]))
     if options.states is not None:
-        _write(place(options.states), report.states_csv(result.columns, result.states))
+        _write(place(options.states), report.rows_csv(result.columns, result.states))
+    if options.scans is not None:
+        _write(place(options.scans), report.rows_csv(result.scan_columns, result.scans))
     if options.trace is not None:
         _write(place(options.trace), "".join(trace_lines))
     if options.report is not None:

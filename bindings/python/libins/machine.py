@@ -6,11 +6,13 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from libins import _run, faults
+from libins import _run, faults, sixacc
 from libins.errors import UsageError
+from libins.motions import motion_of
 from libins.program import Program
 from libins.scenario import Scenario
-from libins.tables import Acquisition, Gyro, Loaded, Nav, Sinusoid
+from libins.sensors import track_of
+from libins.tables import Acquisition, Gyro, Nav
 
 PS_PER_S = 10**12
 AXES = ("roll", "pitch", "yaw")
@@ -26,6 +28,8 @@ class Machine(Protocol):
     """Of a trace, by index."""
     columns: Sequence[str]
     """Of the states."""
+    scan_columns: Sequence[str]
+    """Of the scans."""
     navigates: bool
     """Somebody in the run makes states of what the firmware sends."""
 
@@ -84,35 +88,12 @@ class Machine(Protocol):
         ...
 
     def scans(self) -> Array:
-        """Of an acquisition board; columns _run.SCAN_COLUMNS."""
+        """Of an acquisition board."""
         ...
 
     def close(self) -> None:
         """Nothing of it is left running."""
         ...
-
-
-def motion_of(scenario: Loaded) -> Any:
-    """The scenario's motion. Raises UsageError."""
-
-    def sine(s: Sinusoid) -> list[float]:
-        return [s.offset_rad, s.amplitude_rad, s.frequency_hz, s.phase_rad]
-
-    motion = scenario.tables.motion
-    try:
-        if motion.kind == "csv":
-            assert scenario.csv is not None
-            t = scenario.csv[:, 0].tolist()
-            yaw, pitch, roll = (column.tolist() for column in np.unwrap(scenario.csv[:, 1:], axis=0).T)
-            return _run.motion_table(t, yaw, pitch, roll, motion.ramp_s)
-        if motion.kind == "coning":
-            return _run.motion_coning(motion.half_angle_rad, motion.frequency_hz, motion.ramp_s)
-        if motion.kind == "sinusoids":
-            return _run.motion_euler(sine(motion.yaw), sine(motion.pitch), sine(motion.roll), motion.ramp_s)
-        rate = motion.rate_rad_s if motion.kind == "constant_rate" else [0.0, 0.0, 0.0]
-        return _run.motion_rate(rate, motion.ramp_s)
-    except ValueError as error:
-        raise UsageError(f"{scenario.path}: motion: {error}") from error
 
 
 def gyro_of(tables: Gyro, seed: int) -> Any:
@@ -174,6 +155,8 @@ def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: boo
         config.nav = nav_of(tables.nav, gyro)
         config.start_at_truth = tables.nav.start == "truth"
     try:
+        if tables.sixacc is not None:
+            config.set_accels(sixacc.accels_of(tables.sixacc, seed), track_of(scenario))
         run = _run.Run(config, motion_of(scenario), gyro)
     except ValueError as error:
         raise UsageError(f"{scenario.path}: {error}") from error
@@ -190,6 +173,7 @@ class AcquisitionMachine:
 
     wires: Sequence[str] = _run.WIRES
     columns: Sequence[str] = _run.STATE_COLUMNS
+    scan_columns: Sequence[str] = _run.SCAN_COLUMNS
 
     def __init__(
         self,
@@ -202,6 +186,8 @@ class AcquisitionMachine:
     ) -> None:
         """At time 0. outside: nobody in the run plays the host. Raises UsageError."""
         self.run = build(scenario, seed, outside, trace=trace, seen=seen)
+        if scenario.tables.sixacc is not None:
+            self.scan_columns = _run.SIX_SCAN_COLUMNS
         self.navigates = scenario.tables.nav is not None and not outside
         self._program = program
         self._end: str | None = None

@@ -8,7 +8,8 @@ import numpy as np
 
 from libins import _run, faults
 from libins.errors import CrashError, UsageError
-from libins.machine import Array, accuracy, config_of, gyro_of, link_of, motion_of, nav_of
+from libins.machine import Array, accuracy, config_of, gyro_of, link_of, nav_of
+from libins.motions import motion_of
 from libins.net_scenario import NetScenario, candidates, opposite
 from libins.net_tables import HOST_BAUD, AcquisitionBoard, F2812Board, Host, Line
 from libins.net_vcd import Wire
@@ -39,6 +40,8 @@ def told(place: object) -> Iterator[None]:
 
 class NetMachine:
     """See machine.Machine."""
+
+    scan_columns: Sequence[str] = _run.SCAN_COLUMNS
 
     def __init__(self, scenario: NetScenario, seed: int, outside: Collection[str] = ()) -> None:
         """At time 0. outside: hosts that somebody outside plays. Raises UsageError, CrashError."""
@@ -273,7 +276,7 @@ class NetMachine:
 
     def scans(self) -> Array:
         """See Machine: those of acquisition boards are their own."""
-        return np.empty((0, len(_run.SCAN_COLUMNS)))
+        return np.empty((0, len(self.scan_columns)))
 
     def close(self) -> None:
         """See Machine."""

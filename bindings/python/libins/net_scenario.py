@@ -24,7 +24,7 @@ from libins.net_tables import (
     spread,
 )
 from libins.schema import Document, Place
-from libins.sensor_tables import TRACK_COLUMNS, Gimu, check_lengths, check_outages
+from libins.sensor_tables import Gimu, check_lengths, check_outages, read_track
 from libins.tables import (
     FLASH_OCTETS,
     PACKAGE,
@@ -36,7 +36,6 @@ from libins.tables import (
     check_cuts,
     check_motion,
     check_nav,
-    read_csv,
     read_motion,
     read_volts,
     resolve,
@@ -131,9 +130,7 @@ def read(document: Document, firmware: Path | None = None, combination: Mapping[
             images[board.name] = hexfile.load(path, board.code_octets or FLASH_OCTETS[board.part])
             volts[board.name] = read_volts(document, place, board)
     csv = read_motion(document, tables.motion)
-    path_csv = None
-    if tables.track.kind == "csv":
-        path_csv = read_csv(resolve(document, ("track", "csv"), tables.track.csv, None), TRACK_COLUMNS, 4)
+    path_csv = read_track(document, tables.track)
     return NetScenario(
         document.path,
         tables,

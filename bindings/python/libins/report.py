@@ -12,8 +12,8 @@ def trace_lines(wires: Sequence[str], edges: Array) -> Iterable[str]:
     return (f"{at},{wires[wire]},{level}\n" for at, wire, level in edges.tolist())
 
 
-def states_csv(columns: Sequence[str], states: Array) -> str:
-    """All states, one line each, columns named with their unit."""
+def rows_csv(columns: Sequence[str], states: Array) -> str:
+    """All states or scans, one line each, columns named with their unit."""
     out = io.StringIO()
     out.write(",".join(columns) + "\n")
     for row in states.tolist():

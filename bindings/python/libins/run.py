@@ -10,10 +10,11 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from libins import faults
+from libins import _run, faults
 from libins.endpoint import Endpoint
 from libins.errors import UsageError
-from libins.machine import AXES, COLUMNS, PS_PER_S, AcquisitionMachine, Array, Machine, accuracy, build, motion_of
+from libins.machine import AXES, COLUMNS, PS_PER_S, AcquisitionMachine, Array, Machine, accuracy, build
+from libins.motions import motion_of
 from libins.net_machine import NetMachine
 from libins.net_scenario import NetScenario
 from libins.program import Program
@@ -45,7 +46,7 @@ class Check:
 
 @dataclass
 class Result:
-    """What came out of a run. `states` has the columns named, `scans` _run.SCAN_COLUMNS."""
+    """What came out of a run. `states` and `scans` have the columns named."""
 
     summary: dict[str, Any]
     states: Array
@@ -53,6 +54,7 @@ class Result:
     exit_code: int
     columns: Sequence[str]
     checks: list[Check] = field(default_factory=list)
+    scan_columns: Sequence[str] = tuple(_run.SCAN_COLUMNS)
 
 
 @dataclass
@@ -197,7 +199,7 @@ def _execute(scenario: Loaded, options: Options, machine: Machine, seed: int, st
     if options.strict and summary["reports"]:
         code = 3
     summary["verdict"] = "fail" if code else "pass"
-    return Result(summary, states, machine.scans(), code, machine.columns, checks)
+    return Result(summary, states, machine.scans(), code, machine.columns, checks, machine.scan_columns)
 
 
 class Pacer:

@@ -16,9 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from libins import faults, hexfile, net_scenario
+from libins import faults, hexfile, net_scenario, sixacc_tables
 from libins.errors import UsageError
 from libins.schema import Document, field
+from libins.sensor_tables import Track, read_track
+from libins.sixacc_tables import SixAcc
 from libins.tables import (
     ACQUISITION,
     FLASH_OCTETS,
@@ -56,6 +58,8 @@ class Tables(Acquisition, Common):
     board: str = field(choices=ACQUISITION)
     link: Link = field(Link)
     nav: Nav | None = field(None)
+    sixacc: SixAcc | None = field(None)
+    track: Track = field(Track)
 
 
 @dataclass(frozen=True)
@@ -66,10 +70,13 @@ class Scenario(Loaded):
     image: list[tuple[int, bytes]]
     volts: Mapping[int, np.ndarray[Any, Any]]
     """Files of [[analog]] tables, by their place."""
+    path_csv: np.ndarray[Any, Any] | None
+    """The track's file."""
 
     def contents(self) -> list[object]:
         """Of the files that the scenario names."""
-        return [*super().contents(), self.image, *(table.tolist() for table in self.volts.values())]
+        path = [] if self.path_csv is None else [self.path_csv.tolist()]
+        return [*super().contents(), self.image, *(table.tolist() for table in self.volts.values()), *path]
 
 
 def find(name: str) -> Path:
@@ -134,6 +141,10 @@ def read(document: Document, firmware: Path | None = None, combination: Mapping[
     tables = document.parse(Tables, document.table)
     check_motion(document, tables.motion)
     check_acquisition(document, (), tables)
+    if tables.sixacc is not None:
+        sixacc_tables.check(document, tables.sixacc)
+    elif "track" in document.table:
+        raise document.refuse(("track",), "needs a [sixacc] table: gyros do not feel where the board goes")
     if tables.nav is not None:
         check_nav(document, ("nav",), tables.nav)
     elif tables.stop_samples is not None:
@@ -143,8 +154,9 @@ def read(document: Document, firmware: Path | None = None, combination: Mapping[
     check_common(document, tables)
     image_path = firmware or resolve(document, ("firmware",), tables.firmware, PACKAGE / "firmware")
     csv, volts = read_motion(document, tables.motion), read_volts(document, (), tables)
+    path_csv = read_track(document, tables.track)
     image = hexfile.load(image_path, tables.code_octets or FLASH_OCTETS[tables.part])
-    return Scenario(document.path, tables, image_path, csv, combination or {}, document.table, image, volts)
+    return Scenario(document.path, tables, image_path, csv, combination or {}, document.table, image, volts, path_csv)
 
 
 def load_all(path: Path, firmware: Sequence[Path] = (), settings: Mapping[str, Any] | None = None) -> list[Loaded]:

@@ -1,4 +1,4 @@
-"""Tables of a scenario for the GPS-enabled IMU: where it goes, what its GPS says, and what its sensors are like.
+"""Tables of a scenario: where it goes, what its GPS says, and what the sensors of the GPS-enabled IMU are like.
 
 Keys left out keep the preset's value. Names carry their unit; see ins_truth/track.h, ins_truth/gps.h,
 emu_f2812/gimu_part.h.
@@ -7,8 +7,12 @@ emu_f2812/gimu_part.h.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
 
 from libins.schema import Document, Place, field
+from libins.tables import read_csv, resolve
 
 TRACK_COLUMNS = ("t_s", "north_m", "east_m", "up_m")
 CHANNELS = 6
@@ -84,6 +88,13 @@ class Gimu:
     no_fix: str | None = field(None, choices=("last", "zeros"))
     geoid_m: float | None = field(None, minimum=-200.0, maximum=200.0)
     utc_s: int | None = field(None, minimum=0)
+
+
+def read_track(document: Document, track: Track) -> np.ndarray[Any, Any] | None:
+    """The file that a track of kind csv names. Raises UsageError."""
+    if track.kind != "csv":
+        return None
+    return read_csv(resolve(document, ("track", "csv"), track.csv, None), TRACK_COLUMNS, 4)
 
 
 def check_lengths(document: Document, place: Place, table: Gps | Gimu) -> None:

@@ -1,11 +1,12 @@
-"""The GPS-enabled IMU of a scenario, as the emulator takes it."""
+"""Where a scenario's sensors go, its GPS and its GPS-enabled IMU, as the emulator takes them."""
 
 import math
 from typing import Any
 
 from libins import _run
-from libins.machine import motion_of
+from libins.motions import motion_of
 from libins.net_scenario import NetScenario
+from libins.scenario import Scenario
 from libins.sensor_tables import Gimu, Gps, Track
 
 OF_CHANNELS = ("null_v", "drift_v_s", "scale_error", "sensitivity", "bandwidth_hz", "noise_density")
@@ -13,7 +14,7 @@ OF_PART = ("vcc_v", "power_up_s", "baud", "nmea_baud", "nmea_delay_s", "order", 
 OF_GPS = ("latency_s", "white_m", "markov_m", "markov_tau_s", "velocity_m_s", "sats", "hdop", "first_fix_s")
 
 
-def track_of(scenario: NetScenario) -> Any:
+def track_of(scenario: NetScenario | Scenario) -> Any:
     """Where the vehicle goes. Raises ValueError."""
     track: Track = scenario.tables.track
     attitude = motion_of(scenario) if track.by_motion else None

@@ -17,7 +17,7 @@ from libins.errors import UsageError
 from libins.scenario import Scenario, Tables
 from libins.schema import Document
 
-FORMAT = 1
+FORMAT = 2
 
 
 @dataclass(frozen=True)
@@ -42,6 +42,7 @@ class Snapshot:
             "firmware": str(s.firmware),
             "image": [[address, octets.hex()] for address, octets in s.image],
             "csv": None if s.csv is None else s.csv.tolist(),
+            "path_csv": None if s.path_csv is None else s.path_csv.tolist(),
             "analog": [[place, volts.tolist()] for place, volts in s.volts.items()],
             "navigator": self.navigator,
             "now_ps": self.now_ps,
@@ -81,6 +82,7 @@ def read(path: Path) -> Snapshot:
         table=d["table"],
         image=[(address, bytes.fromhex(octets)) for address, octets in d["image"]],
         volts={place: np.array(volts) for place, volts in d["analog"]},
+        path_csv=None if d["path_csv"] is None else np.array(d["path_csv"]),
     )
     received = tuple(Octet(*octet) for octet in d["received"])
     return Snapshot(scenario, d["navigator"], d["now_ps"], state, received, d["read"], dict(d["volts"]))

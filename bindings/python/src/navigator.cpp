@@ -88,7 +88,8 @@ void Navigator::navigate(const ins_nav_sample_t& sample, emu_time_t at, const st
                          const ins_motion_t* motion)
 {
     // A board whose time is ahead has scans already that this host cannot know of.
-    const auto made = [at](const Scan& scan) { return scan.at[2] <= at; };
+    const size_t last = config.channels - 1u;
+    const auto made = [=](const Scan& scan) { return scan.at[last] <= at; };
     const auto count = static_cast<size_t>(std::partition_point(scans.begin(), scans.end(), made) - scans.begin());
     const std::optional<size_t> origin = origin_of(sample, scans, count);
     corrupt_accepted += origin ? 0 : 1;

@@ -13,11 +13,11 @@
 namespace libins
 {
 
-/// X, Y, Z of one scan, each with the end of its own acquisition. The scan's instant is that of X.
+/// X, Y, Z of one scan, or six accelerometers, each with the end of its own acquisition. The scan's instant is that of the first.
 struct Scan
 {
-    std::array<emu_time_t, 3> at{};
-    std::array<uint16_t, 3> code{};
+    std::array<emu_time_t, INS_NAV_CHANNELS> at{};
+    std::array<uint16_t, INS_NAV_CHANNELS> code{};
 };
 
 /// A navigation state beside the truth at its own sample's instant.

@@ -26,6 +26,10 @@ Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const in
     {
         throw std::invalid_argument(why.data());
     }
+    if (config_.accels && !ins_accels_init(&accels_, &*config_.accels, config_.track.get(), why.data(), why.size()))
+    {
+        throw std::invalid_argument(why.data());
+    }
     if (config_.nav)
     {
         navigator_.begin(*config_.nav, config_.start_at_truth);
@@ -162,6 +166,7 @@ double Run::on_volts(void* ctx, unsigned channel, int64_t t)
     const auto signal = self.config_.signals.find(channel);
     const double volts = held != self.volts_.end()              ? held->second
                          : signal != self.config_.signals.end() ? signal->second.at(static_cast<double>(t) * 1e-12)
+                         : self.config_.accels                  ? ins_accels_volts(&self.accels_, channel, t)
                                                                 : ins_gyro_volts(&self.gyro_, channel, t);
     return self.faults_->volts(channel, volts, t);
 }
@@ -182,14 +187,14 @@ void Run::on_sample(void* ctx, unsigned channel, uint16_t code, double volts, em
     {
         self.pending_channels_ = 0;
     }
-    if (channel != self.pending_channels_ || channel > 2)
+    if (channel != self.pending_channels_ || channel >= self.channels())
     {
         return; // not the next of X, Y, Z: no scan of this firmware's
     }
     self.pending_.at[channel] = at;
     self.pending_.code[channel] = code;
     self.pending_channels_++;
-    if (self.pending_channels_ == 3)
+    if (self.pending_channels_ == self.channels())
     {
         self.scans.push_back(self.pending_);
         self.pending_channels_ = 0;

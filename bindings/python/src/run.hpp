@@ -9,6 +9,7 @@
 #include "emu/serial.h"
 #include "emu_8051/acq_board.h"
 #include "faults.hpp"
+#include "ins_truth/accel.h"
 #include "ins_truth/gyro.h"
 #include "navigator.hpp"
 #include "observers.hpp"
@@ -56,10 +57,12 @@ struct RunConfig
     std::optional<ins_nav_config_t> nav; ///< nothing: the outside plays the host
     bool start_at_truth = true;          ///< the navigator gets the truth at its first sample
     bool trace = false;
-    std::map<unsigned, Signal> signals; ///< by channel; the others have the gyros
-    bool six = false;                   ///< the board of acq_board_six_config()
-    bool listen = false;                ///< keep the octets that the host receives, also where the navigator takes them
-    bool outside = false;               ///< what is beyond the host's wires is somebody else's, the transmitter too
+    std::map<unsigned, Signal> signals;       ///< by channel; the others have the gyros, or
+    std::optional<ins_accel_config_t> accels; ///< accelerometers on the track
+    std::shared_ptr<ins_track_t> track;
+    bool six = false;     ///< the board of acq_board_six_config()
+    bool listen = false;  ///< keep the octets that the host receives, also where the navigator takes them
+    bool outside = false; ///< what is beyond the host's wires is somebody else's, the transmitter too
     bool seen =
         false; ///< keep the converter's samples and the edges of all pins, for take_samples() and take_pin_edges()
 };
@@ -125,6 +128,8 @@ class Run
     emu_wire_t& host_txd() { return host_txd_; }
     acq_board_t* board() const { return board_.get(); }
     const RunConfig& config() const { return config_; }
+    /// Of a scan: 6 with accelerometers, else 3.
+    unsigned channels() const { return config_.accels ? INS_NAV_CHANNELS : 3; }
     mcs51_t* cpu() const { return acq_board_cpu(board_.get()); }
     /// What is at the converter's input at instant t.
     double volts(unsigned channel, emu_time_t t) { return on_volts(this, channel, t); }
@@ -172,6 +177,7 @@ class Run
     RunConfig config_;
     std::shared_ptr<ins_motion_t> motion_;
     ins_gyro_t gyro_{};
+    ins_accels_t accels_{};
     std::map<unsigned, double> volts_; ///< set by hand
     emu_sched_t sched_{};
     std::unique_ptr<acq_board_t, BoardDeleter> board_;

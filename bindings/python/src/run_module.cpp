@@ -6,6 +6,7 @@
 #include "net_module.hpp"
 #include "observe_module.hpp"
 #include "run.hpp"
+#include "sixacc_module.hpp"
 #include "states.hpp"
 #include <memory>
 #include <nanobind/nanobind.h>
@@ -100,15 +101,16 @@ nb::ndarray<nb::numpy, int64_t, nb::ndim<2>> take_edges(Run& run)
 nb::ndarray<nb::numpy, double, nb::ndim<2>> scans(const Run& run)
 {
     std::vector<double> values;
+    const unsigned channels = run.channels();
     for (const Scan& scan : run.scans)
     {
-        for (const emu_time_t at : scan.at)
+        for (unsigned i = 0; i < channels; i++)
         {
-            values.push_back(static_cast<double>(at) * 1e-12);
+            values.push_back(static_cast<double>(scan.at[i]) * 1e-12);
         }
-        values.insert(values.end(), scan.code.begin(), scan.code.end());
+        values.insert(values.end(), scan.code.begin(), scan.code.begin() + channels);
     }
-    return libins::table(run.scans.size(), 6, std::move(values));
+    return libins::table(run.scans.size(), 2 * channels, std::move(values));
 }
 
 nb::dict counters(const Run& run)
@@ -231,8 +233,8 @@ NB_MODULE(_run, m)
     nb::class_<ins_nav_config_t>(m, "Nav", "Receiver and navigator; see ins_nav/nav.h.");
     m.def("nav", nav_config, "period_s"_a, "block_len"_a, "sequence"_a, "form"_a, "rate_order"_a, "skew_s"_a, "gyro"_a);
 
-    nb::class_<RunConfig>(m, "RunConfig")
-        .def(nb::init<>())
+    nb::class_<RunConfig> run_config(m, "RunConfig");
+    run_config.def(nb::init<>())
         .def_prop_rw(
             "part", [](const RunConfig& self) { return libins::part_name(self.part); },
             [](RunConfig& self, const std::string& name) { self.part = libins::part_of(name); })
@@ -296,5 +298,6 @@ NB_MODULE(_run, m)
         .def("counters", counters)
         .def("reports", [](const Run& self) { return libins::reports_list(self.reports); });
     libins::bind_net(m);
+    libins::bind_sixacc(m, run_config);
     libins::bind_observer(m);
 }

@@ -13,7 +13,7 @@ namespace libins
 namespace
 {
 
-constexpr uint32_t version = 2;
+constexpr uint32_t version = 3;
 constexpr size_t header_octets = 24;
 
 uint64_t fnv1a(const char* octets, size_t size)
@@ -161,7 +161,7 @@ void Run::walk(emu_state_t* io)
     each(io, pending_);
     uint32_t channels = pending_channels_;
     emu_state_u32(io, &channels);
-    emu_state_check(io, channels < 3);
+    emu_state_check(io, channels < this->channels());
     pending_channels_ = io->bad ? pending_channels_ : channels;
     list(io, scans);
     list(io, reports);

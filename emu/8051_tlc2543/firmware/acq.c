@@ -1,9 +1,11 @@
-/// Acquisition firmware of the board of Zheng and Zhou (2010), AT89S51 at 11.0592 MHz: samples X, Y, Z of a TLC2543 at an exact
-/// period and hands each sample to the host by the handshake of the core library (ins/handshake.h).
+/// Acquisition firmware of the board of Zheng and Zhou (2010), AT89S51 at 11.0592 MHz: samples X, Y, Z of a TLC2543, or six
+/// accelerometers on AIN0 to AIN5, at an exact period and hands each sample to the host by the handshake of the core library
+/// (ins/handshake.h).
 ///
 /// Sampling is paced by timer 0, whose interrupt is the only one of high priority: the reload adds to the running count, so that no
 /// latency is lost or gained, and the scan then waits until a fixed count after the overflow: the sampling instants are a fixed number
-/// of machine cycles apart. A scan is four transfers of 12 clocks, because the TLC2543 gives the result of the transfer before.
+/// of machine cycles apart. A scan is ACQ_CHANNELS + 1 transfers of 12 clocks, because the TLC2543 gives the result of the transfer
+/// before.
 /// The main loop serves the handshake and idles. While the host is silent the newest sample replaces the one that waits.
 ///
 /// Counters for a debugger, by symbol: sampled = link.sent + lost + those not yet offered or on their way.
@@ -16,6 +18,9 @@
 #define AIN_X 0x00 ///< D7-D4 input, then 12 bits, MSB first, unipolar
 #define AIN_Y 0x10
 #define AIN_Z 0x20
+#define AIN_3 0x30
+#define AIN_4 0x40
+#define AIN_5 0x50
 
 #define RELOAD       (65536 - ACQ_TICK_CYCLES)
 #define STOPPED      7  ///< cycles from CLR TR0 to SETB TR0, in which timer 0 counts nothing
@@ -29,7 +34,7 @@ volatile uint8_t adc_timeouts; ///< conversions that did not end
 INS_HS_MEM ins_hs_board_t link;
 const __code uint8_t link_counters = offsetof(ins_hs_board_t, sent); ///< sent, resent, given_up begin here in link
 
-static INS_HS_MEM uint16_t codes[3];
+static INS_HS_MEM uint16_t codes[ACQ_CHANNELS];
 static INS_HS_MEM ins_octet_t block[ACQ_BLOCK_LEN];
 static volatile uint8_t ticks;
 static uint8_t ticks_left;
@@ -143,7 +148,12 @@ void tick(void) __interrupt(TF0_VECTOR) __using(1)
     transfer(AIN_X);
     codes[0] = transfer(AIN_Y);
     codes[1] = transfer(AIN_Z);
-    codes[2] = transfer(AIN_X);
+#if ACQ_CHANNELS == 6
+    codes[2] = transfer(AIN_3);
+    codes[3] = transfer(AIN_4);
+    codes[4] = transfer(AIN_5);
+#endif
+    codes[ACQ_CHANNELS - 1] = transfer(AIN_X);
     sampled++;
 }
 
@@ -191,6 +201,9 @@ static void offer(uint16_t now)
     {
         number = (uint8_t)sampled;
         ins_hs_block_put(codes, block);
+#if ACQ_CHANNELS == 6
+        ins_hs_block_put(codes + 3, block + 6);
+#endif
     } while (number != (uint8_t)sampled);
     lost += (uint8_t)(number - taken - 1);
     taken = number;

@@ -10,5 +10,8 @@
 #define ACQ_CYCLES_PER_S  921600
 #define ACQ_SKEW_Y_CYCLES 116 ///< X to Y, 125.868 us
 #define ACQ_SKEW_Z_CYCLES 240 ///< X to Z, 260.417 us
+#define ACQ_SKEW_3_CYCLES 364 ///< of six channels, AIN0 to AIN3, 394.965 us
+#define ACQ_SKEW_4_CYCLES 488 ///< to AIN4, 529.514 us
+#define ACQ_SKEW_5_CYCLES 612 ///< to AIN5, 664.063 us
 
 #endif // ACQ_TIMING_H_INCLUDED

@@ -1,8 +1,9 @@
-# add_acq_firmware(NAME PERIOD_US BAUD BLOCK_LEN SEQ): one image of acq.c, as ${CMAKE_BINARY_DIR}/firmware/NAME.ihx with its .map, .mem and
+# add_acq_firmware(NAME PERIOD_US BAUD BLOCK_LEN SEQ [CHANNELS]): one image of acq.c, as ${CMAKE_BINARY_DIR}/firmware/NAME.ihx with its .map, .mem and
 # listings (NAME.MODULE.rst), and NAME_debug.ihx with its .cdb: SDCC 4.2 makes other code with --debug (a return jumps to the one RET,
 # a last call is no jump).
 # Its options are described in acq_config.h, which refuses what cannot work. Timer 0 ticks about once a millisecond: of the whole
-# numbers of ticks that divide the period, the one nearest 1024 machine cycles a tick is taken.
+# numbers of ticks that divide the period, the one nearest 1024 machine cycles a tick is taken. CHANNELS is 3 unless given; six
+# take 1152 cycles a tick for their longer scan, and leave 18 octets of RAM to a stack of 16.
 find_program(INS_SDCC sdcc)
 if(NOT INS_SDCC)
   message(FATAL_ERROR "SDCC, which builds the 8051 firmware, is missing. Install it: sudo apt-get install --no-install-recommends sdcc "
@@ -20,11 +21,21 @@ function(add_acq_firmware name period_us baud block_len seq)
                         "take a multiple of 625/576 us (any multiple of 625 us is one)")
   endif()
   math(EXPR cycles "${period_us} * 576 / 625")
+  set(channels 3)
+  if(ARGC GREATER 5)
+    set(channels ${ARGV5})
+  endif()
+  set(target 1024)
+  set(stack 20)
+  if(channels EQUAL 6)
+    set(target 1152)
+    set(stack 18)
+  endif()
   set(best 1000000000)
   foreach(ticks RANGE 1 255)
     math(EXPR rest "${cycles} % ${ticks}")
     math(EXPR tick "${cycles} / ${ticks}")
-    math(EXPR off "${tick} - 1024")
+    math(EXPR off "${tick} - ${target}")
     if(off LESS 0)
       math(EXPR off "-4 * ${off}")
     endif()
@@ -44,7 +55,8 @@ function(add_acq_firmware name period_us baud block_len seq)
 
   set(flags -mmcs51 --model-small --std-c11 --Werror -I${core}/include -DINS_REAL_FLOAT -DINS_HS_MEM=__idata
             -DINS_HS_BLOCK_MAX=${block_len} -DACQ_PERIOD_US=${period_us} -DACQ_TICKS=${best_ticks} -DACQ_TICK_CYCLES=${best_tick}
-            -DACQ_BAUD=${baud} -DACQ_BLOCK_LEN=${block_len} -DACQ_SEQ=${seq} -DACQ_REPLY_TICKS=${reply_ticks} -DACQ_RETRIES=3)
+            -DACQ_BAUD=${baud} -DACQ_CHANNELS=${channels} -DACQ_BLOCK_LEN=${block_len} -DACQ_SEQ=${seq}
+            -DACQ_REPLY_TICKS=${reply_ticks} -DACQ_RETRIES=3)
   set(out ${CMAKE_BINARY_DIR}/firmware)
   foreach(image ${name} ${name}_debug)
     set(work ${CMAKE_CURRENT_BINARY_DIR}/firmware/${image})
@@ -61,7 +73,7 @@ function(add_acq_firmware name period_us baud block_len seq)
       OUTPUT ${copies} ${listings}
       COMMAND ${INS_SDCC} ${flags} ${debug} -c ${here}/acq.c -o ${work}/acq.rel
       COMMAND ${INS_SDCC} ${flags} ${debug} -c ${core}/src/handshake_board.c -o ${work}/handshake_board.rel
-      COMMAND ${INS_SDCC} -mmcs51 --model-small ${debug} --iram-size 128 --code-size 4096 --stack-size 20 ${work}/acq.rel
+      COMMAND ${INS_SDCC} -mmcs51 --model-small ${debug} --iram-size 128 --code-size 4096 --stack-size ${stack} ${work}/acq.rel
               ${work}/handshake_board.rel -o ${work}/${image}.ihx
       COMMAND ${CMAKE_COMMAND} -E copy ${products} ${out}
       COMMAND ${CMAKE_COMMAND} -E copy ${work}/acq.rst ${out}/${image}.acq.rst

@@ -69,7 +69,7 @@ struct sample_t
 struct block_t
 {
     std::vector<unsigned> octets;
-    uint16_t codes[3];
+    std::vector<uint16_t> codes;
     unsigned seq, gap;
     emu_time_t at;
 };
@@ -80,6 +80,7 @@ struct rig_config_t
     double baud = 9600.0, host_baud = 0.0; ///< 0: the same
     uint64_t crystal_hz = 11059200;
     uint8_t block_len = 6, seq = 1;
+    unsigned channels = 3;
     uint16_t octet_timeout_ms = 4;
     unsigned ignored_requests = 0;    ///< AAs of each exchange the host lets pass
     emu_serial_faults_t up{}, down{}; ///< board to host, host to board
@@ -178,8 +179,11 @@ class acq_rig_t
         const emu_clock_t machine{11059200, 12};
         return emu_clock_tick(&machine, at);
     }
-    /// Samples of scan k (from 0), in order: X, Y, Z and the fourth transfer's.
-    const sample_t& sample(size_t scan, unsigned transfer) const { return samples[4 * scan + transfer]; }
+    /// Samples of scan k (from 0), in order: X, Y, Z (of six accelerometers, AIN0 to AIN5) and the last transfer's.
+    const sample_t& sample(size_t scan, unsigned transfer) const
+    {
+        return samples[(config.channels + 1) * scan + transfer];
+    }
 
     rig_config_t config;
     emu_sched_t sched;
@@ -235,7 +239,11 @@ class acq_rig_t
         {
             block_t b{{}, {}, self->host.seq, self->host.gap, at};
             b.octets.assign(self->host.block, self->host.block + self->config.block_len);
-            ins_hs_block_codes(self->host.block, b.codes);
+            b.codes.resize(self->config.channels);
+            for (unsigned channel = 0; channel < self->config.channels; channel += 3)
+            {
+                ins_hs_block_codes(self->host.block + 2 * channel, &b.codes[channel]);
+            }
             self->blocks.push_back(b);
         }
         if (reply == INS_HS_ACCEPT)

@@ -18,6 +18,7 @@ struct image_t
     double baud;
     uint8_t block_len, seq;
     double exchange_ms_max; ///< start of AA to end of 00
+    unsigned channels = 3;
 };
 
 void PrintTo(const image_t& image, std::ostream* out)
@@ -32,6 +33,7 @@ rig_config_t config_of(const image_t& image)
     config.baud = image.baud;
     config.block_len = image.block_len;
     config.seq = image.seq;
+    config.channels = image.channels;
     return config;
 }
 
@@ -44,7 +46,7 @@ double ms_of(const image_t& image, double scans)
 double ramps(unsigned channel, int64_t t)
 {
     const double s = static_cast<double>(t) * 1e-12;
-    return channel == 0 ? 0.1 + 0.2 * s : channel == 1 ? 4.9 - 0.2 * s : 1.0 + 0.15 * s;
+    return channel == 0 ? 0.1 + 0.2 * s : channel == 1 ? 4.9 - 0.2 * s : 0.5 * channel + 0.15 * s;
 }
 
 class acq_image : public testing::TestWithParam<image_t>
@@ -55,7 +57,7 @@ TEST_P(acq_image, samples_at_exactly_its_period)
 {
     acq_rig_t rig(config_of(GetParam()));
     rig.run_to_ms(ms_of(GetParam(), kScans + 2));
-    ASSERT_GT(rig.samples.size(), 4 * kScans);
+    ASSERT_GT(rig.samples.size(), (GetParam().channels + 1) * kScans);
     for (size_t k = 1; k <= kScans; k++)
     {
         const uint64_t step = rig.cycle(rig.sample(k, 0).at) - rig.cycle(rig.sample(k - 1, 0).at);
@@ -63,19 +65,24 @@ TEST_P(acq_image, samples_at_exactly_its_period)
     }
 }
 
-TEST_P(acq_image, scans_with_four_transfers_and_the_published_skew)
+TEST_P(acq_image, scans_its_channels_with_the_published_skew)
 {
+    static const uint64_t skew[] = {
+        0, ACQ_SKEW_Y_CYCLES, ACQ_SKEW_Z_CYCLES, ACQ_SKEW_3_CYCLES, ACQ_SKEW_4_CYCLES, ACQ_SKEW_5_CYCLES};
+    const unsigned channels = GetParam().channels;
     acq_rig_t rig(config_of(GetParam()));
     rig.run_to_ms(ms_of(GetParam(), kScans + 2));
     for (size_t k = 0; k < kScans; k++)
     {
         const uint64_t x = rig.cycle(rig.sample(k, 0).at);
-        for (unsigned transfer = 0; transfer < 4; transfer++)
+        for (unsigned transfer = 0; transfer <= channels; transfer++)
         {
-            ASSERT_EQ(rig.sample(k, transfer).channel, transfer % 3) << "scan " << k;
+            ASSERT_EQ(rig.sample(k, transfer).channel, transfer % channels) << "scan " << k;
         }
-        ASSERT_EQ(rig.cycle(rig.sample(k, 1).at) - x, ACQ_SKEW_Y_CYCLES) << "scan " << k;
-        ASSERT_EQ(rig.cycle(rig.sample(k, 2).at) - x, ACQ_SKEW_Z_CYCLES) << "scan " << k;
+        for (unsigned channel = 1; channel < channels; channel++)
+        {
+            ASSERT_EQ(rig.cycle(rig.sample(k, channel).at) - x, skew[channel]) << "scan " << k << ", " << channel;
+        }
     }
     EXPECT_EQ(rig.u8("_adc_timeouts"), 0u);
     EXPECT_TRUE(rig.reports.empty()) << rig.reports.front();
@@ -92,15 +99,15 @@ TEST_P(acq_image, hands_over_every_sample_of_its_own_scan_in_time)
     for (size_t k = 0; k < kScans; k++)
     {
         const block_t& b = rig.blocks[k];
-        for (unsigned channel = 0; channel < 3; channel++)
+        for (unsigned channel = 0; channel < GetParam().channels; channel++)
         {
             ASSERT_EQ(b.codes[channel], rig.sample(k, channel).code) << "scan " << k << ", channel " << channel;
         }
         ASSERT_EQ(b.seq, config.seq ? (k + 1) % 256 : 0u);
         ASSERT_EQ(b.gap, 0u);
-        for (size_t i = 6; i < b.octets.size(); i++)
+        for (size_t i = 2 * GetParam().channels; i < b.octets.size(); i++)
         {
-            ASSERT_EQ(b.octets[i], 0u) << "octets after the sixth are zero";
+            ASSERT_EQ(b.octets[i], 0u) << "octets after the last channel's are zero";
         }
         const double bit_ms = 1e3 / config.baud;
         age_max = std::max(age_max, static_cast<double>(b.at - rig.sample(k, 0).at) * 1e-9);
@@ -158,6 +165,7 @@ INSTANTIATE_TEST_SUITE_P(images, acq_image,
                                          image_t{"acq_s3_paper", 73728, 9600.0, 6, 0, 10.9},
                                          image_t{"acq_80ms_seq", 73728, 9600.0, 6, 1, 10.9},
                                          image_t{"acq_57600", 9216, 57600.0, 6, 1, 4.0},
+                                         image_t{"acq_six", 9216, 57600.0, 12, 1, 6.0, 6},
                                          image_t{"test_block14", 23040, 19200.0, 14, 0, 10.5}),
                          [](const auto& p) { return std::string(p.param.name); });
 

@@ -16,6 +16,7 @@ void ins_nav_config_default(ins_nav_config_t* cfg)
 {
     memset(cfg, 0, sizeof *cfg);
     cfg->period_s = 0.02;
+    cfg->channels = 3;
     cfg->block_len = 6;
     cfg->seq = 1;
     cfg->retries = 3;
@@ -62,9 +63,13 @@ const char* ins_nav_config_problem(const ins_nav_config_t* cfg)
     {
         return "the period must be 1e-6 to 3600 s";
     }
-    if (cfg->block_len < 6 || cfg->block_len > INS_HS_BLOCK_MAX)
+    if (cfg->channels != 3 && cfg->channels != INS_NAV_CHANNELS)
     {
-        return "the block length must be 6 to 32 octets (XH XL YH YL ZH ZL come first)";
+        return "there must be 3 channels (gyros) or 6 (accelerometers)";
+    }
+    if (cfg->block_len < 2 * cfg->channels || cfg->block_len > INS_HS_BLOCK_MAX)
+    {
+        return "the block length must be 6 to 32 octets (XH XL YH YL ZH ZL come first), of six channels at least 12";
     }
     if (cfg->seq > 1)
     {

@@ -61,7 +61,8 @@ int ins_nav_link_octet(ins_nav_link_t* self, ins_octet_t octet, uint64_t now_ms,
         return 0;
     }
     int valid = 1;
-    for (int i = 0; i < 3; i++)
+    memset(sample->code, 0, sizeof sample->code);
+    for (int i = 0; i < self->cfg.channels; i++)
     {
         sample->code[i] = (uint16_t)(self->hs.block[2 * i] << 8 | self->hs.block[2 * i + 1]);
         valid = valid && sample->code[i] <= self->cfg.code_max;

@@ -143,7 +143,7 @@ ins_status_t ins_nav_codes(ins_nav_t* self, const uint16_t code[3], uint32_t los
 {
     ins_nav_sample_t sample = {0};
     sample.index = self->solver.used > 0 ? self->solver.index + 1u + lost : 0u;
-    memcpy(sample.code, code, sizeof sample.code);
+    memcpy(sample.code, code, 3 * sizeof *code);
     sample.counts.accepted = self->solver.used + 1u;
     sample.counts.lost = self->solver.used > 0 ? self->solver.missed + lost : 0u;
     return ins_nav_solver_step(&self->solver, &sample, state);

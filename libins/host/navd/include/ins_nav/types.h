@@ -26,12 +26,15 @@ enum
 };
 #undef INS_NAV_STATUS_ENUM
 
+#define INS_NAV_CHANNELS 6 ///< most, of a sample
+
 typedef struct ins_nav_config_t
 {
-    double period_s;           ///< the firmware's sampling period [s]
-    uint8_t block_len;         ///< 6..INS_HS_BLOCK_MAX octets; XH XL YH YL ZH ZL come first, what follows is not read
-    uint8_t seq;               ///< 1: sequence number in the high nibbles of octets 0 and 2
-    uint8_t retries;           ///< FFs in a row before the next AA is awaited
+    double period_s;   ///< the firmware's sampling period [s]
+    uint8_t channels;  ///< 3: gyros X, Y, Z, which the solver takes; 6: accelerometers, for ins_nav_six_t
+    uint8_t block_len; ///< 6..INS_HS_BLOCK_MAX octets; two a channel come first (XH XL ...), what follows is not read
+    uint8_t seq;       ///< 1: sequence number in the high nibbles of octets 0 and 2
+    uint8_t retries;   ///< FFs in a row before the next AA is awaited
     uint16_t octet_timeout_ms; ///< longest silence inside a block; below the board's reply time-out
     int form;                  ///< INS_CONING_ONE or INS_CONING_HIST*
     uint8_t rate_order;        ///< Adams-Moulton order, 2..5
@@ -59,8 +62,8 @@ typedef struct ins_nav_counts_t
 
 typedef struct ins_nav_sample_t
 {
-    uint64_t index; ///< number since the first sample; lost ones count
-    uint16_t code[3];
+    uint64_t index;                  ///< number since the first sample; lost ones count
+    uint16_t code[INS_NAV_CHANNELS]; ///< those beyond the channels are 0
     uint8_t seq;
     uint8_t disagree; ///< see INS_NAV_DISAGREE
     ins_nav_counts_t counts;
