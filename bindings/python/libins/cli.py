@@ -15,6 +15,7 @@ from libins import campaign, debug_cli, endpoint, report, run, scenario, seeing
 from libins.errors import CrashError, UsageError
 from libins.program import CONSOLES, Program, address, exit_place
 from libins.tables import PACKAGE, Loaded
+from libins.whole_file import write
 
 EXIT_USAGE = 2
 EXIT_CRASH = 3
@@ -192,19 +193,6 @@ def _speed(text: str | None) -> float | None:
     return value
 
 
-def _write(path: Path, text: str) -> None:
-    """The whole file or nothing of it."""
-    if str(path) == "-":
-        sys.stdout.write(text)
-        return
-    temporary = path.with_name(path.name + ".part")
-    try:
-        temporary.write_text(text, encoding="utf-8")
-        temporary.replace(path)
-    except OSError as error:
-        raise UsageError(f"{path}: cannot be written: {error.strerror}; choose another place") from error
-
-
 def _run_command(options: argparse.Namespace) -> int:
     if options.stop_s is not None and not 0 < options.stop_s <= 1e6:
         raise UsageError(f"--stop-s {options.stop_s}: must lie above 0 and up to 1e6")
@@ -233,11 +221,11 @@ def _run_command(options: argparse.Namespace) -> int:
             handle.close()
     summaries = [result.summary for _, result in results]
     if options.json is not None:
-        _write(options.json, run.to_json(summaries if len(runs) > 1 else summaries[0]))
+        write(options.json, run.to_json(summaries if len(runs) > 1 else summaries[0]))
     if options.junit is not None:
         from libins import junit
 
-        _write(options.junit, junit.xml(results, options.strict))
+        write(options.junit, junit.xml(results, options.strict))
     worst = max(result.exit_code for _, result in results)
     if len(runs) > 1 and str(options.json) != "-":
         passed = sum(result.exit_code == 0 for _, result in results)
@@ -295,15 +283,15 @@ def _run_one(loaded: Loaded, options: argparse.Namespace, handle: Any, number: i
     if options.profile is not None:
         from libins import profile
 
-        _write(place(options.profile), profile.text(result.summary["observed"]))
+        write(place(options.profile), profile.text(result.summary["observed"]))
     if options.states is not None:
-        _write(place(options.states), report.rows_csv(result.columns, result.states))
+        write(place(options.states), report.rows_csv(result.columns, result.states))
     if options.scans is not None:
-        _write(place(options.scans), report.rows_csv(result.scan_columns, result.scans))
+        write(place(options.scans), report.rows_csv(result.scan_columns, result.scans))
     if options.trace is not None:
-        _write(place(options.trace), "".join(trace_lines))
+        write(place(options.trace), "".join(trace_lines))
     if options.report is not None:
-        _write(place(options.report), _page().html(loaded, result, settings.watch.view if settings.watch else None))
+        write(place(options.report), _page().html(loaded, result, settings.watch.view if settings.watch else None))
     return result
 
 
