@@ -1,6 +1,6 @@
 /// \file   calib_module.cpp
 /// \brief  The Python module libins._calib over libins_calib: NumPy arrays of float64, one row a pose. SPDX-License-Identifier: MIT
-#include "ins_calib/calib.h"
+#include "ins_calib/full.h"
 #include <array>
 #include <memory>
 #include <nanobind/nanobind.h>
@@ -129,6 +129,59 @@ nb::dict paper(int group, double g, double T, const In& readings)
     d["residual"] = array(out.residual, {3, 6});
     return d;
 }
+constexpr size_t SENSOR_COLUMNS = 13; ///< u0, e1, e2, r0, sigma
+
+nb::dict full(const In& sensors, const In& poses, const In& readings, double g, double fixture_rad,
+              double robust_sigmas, unsigned fixed)
+{
+    const size_t count = rows(sensors, "sensors", SENSOR_COLUMNS);
+    const size_t n = rows(poses, "poses", 9);
+    if (rows(readings, "readings", count) != n)
+    {
+        throw std::invalid_argument("readings: as many rows as poses are needed");
+    }
+    std::vector<ins_calib_sensor_t> sensor(count);
+    for (size_t j = 0; j < count; j++)
+    {
+        const double* const row = sensors.data() + SENSOR_COLUMNS * j;
+        std::copy(row, row + 3, sensor[j].u0);
+        std::copy(row + 3, row + 6, sensor[j].e1);
+        std::copy(row + 6, row + 9, sensor[j].e2);
+        std::copy(row + 9, row + 12, sensor[j].r0);
+        sensor[j].sigma = row[12];
+    }
+    std::vector<ins_calib_pose_t> pose(n);
+    for (size_t k = 0; k < n; k++)
+    {
+        const double* const row = poses.data() + 9 * k;
+        std::copy(row, row + 3, pose[k].up);
+        std::copy(row + 3, row + 6, pose[k].w);
+        std::copy(row + 6, row + 9, pose[k].wd);
+    }
+    const size_t all = INS_CALIB_FULL_N * count;
+    std::vector<double> p(all), covariance(all * all), attitude(3 * n), residual(n * count), condition(count);
+    const ins_calib_full_t in = {count, n,           sensor.data(), pose.data(), readings.data(),
+                                 g,     fixture_rad, robust_sigmas, fixed};
+    ins_calib_full_result_t out{};
+    out.p = p.data();
+    out.covariance = covariance.data();
+    out.attitude = attitude.data();
+    out.residual = residual.data();
+    out.condition = condition.data();
+    Reason why;
+    why.check(ins_calib_full(&in, &out, why.text.data(), why.text.size()));
+    nb::dict d;
+    d["p"] = array(p.data(), {count, INS_CALIB_FULL_N});
+    d["covariance"] = array(covariance.data(), {all, all});
+    d["attitude"] = array(attitude.data(), {n, 3});
+    d["residual"] = array(residual.data(), {n, count});
+    d["condition"] = array(condition.data(), {count});
+    d["chi2"] = out.chi2;
+    d["chi2_expected"] = out.chi2_expected;
+    d["from_prior"] = out.from_prior;
+    d["iterations"] = out.iterations;
+    return d;
+}
 } // namespace
 
 NB_MODULE(_calib, m)
@@ -145,4 +198,10 @@ NB_MODULE(_calib, m)
         "(14) to first order.");
     m.def("paper", paper, "group"_a, "g"_a, "T"_a, "readings"_a,
           "Equations 21 to 25 on readings (3, 6), P = SF T (b + axis . f): {sf, bias, angles, H, map, residual}.");
+    m.attr("FULL_NAMES") = nb::make_tuple("b", "SF", "m1", "m2", "k2", "r_x", "r_y", "r_z");
+    m.def("full", full, "sensors"_a, "poses"_a, "readings"_a, "g"_a, "fixture_rad"_a = 0.0, "robust_sigmas"_a = 0.0,
+          "fixed"_a = 0U,
+          "The full model. sensors: (n, 13) u0, e1, e2, r0 [m], sigma. poses: (k, 9) up, w [rad/s], wd [rad/s^2]. "
+          "readings: (k, n). fixed: bits of FULL_NAMES that are not estimated. Gives {p (n, 8), covariance, attitude, "
+          "residual, condition, chi2, chi2_expected, from_prior, iterations}.");
 }

@@ -20,11 +20,11 @@ std::string unfixed(const Observed& seen, double g)
     {
         Eigen::VectorXd row = Eigen::VectorXd::Unit(4, 0);
         row(1 + face / 2) = face % 2 == 0 ? g : -g;
-        candidates.push_back({FACES[face], row});
+        candidates.push_back({FACES[face], {row}});
     }
     return "the attitudes have rank " + std::to_string(seen.rank) + " of 4: they do not fix " +
            unseen_names(seen, {"bias", "axis x", "axis y", "axis z"}) + "; add the attitudes " +
-           listed(remedies(seen, candidates));
+           listed(remedies({seen}, candidates));
 }
 } // namespace
 

@@ -2,15 +2,16 @@
 /// \brief  Rank, condition and remedies by singular values.
 /// SPDX-License-Identifier: MIT
 #include "observe.hpp"
+#include <algorithm>
 #include <limits>
 
 namespace ins_calib
 {
 namespace
 {
-constexpr double RANK_TOLERANCE = 1e-9; ///< of the largest singular value; exact geometry leaves some 1e-15
-constexpr double NAMED = 0.1;           ///< share of an unknown in a combination from which it is named
-constexpr double SHOWN = 1e-3;          ///< share of the unseen that a candidate's row must see
+
+constexpr double NAMED = 0.1;  ///< share of an unknown in a combination from which it is named
+constexpr double SHOWN = 1e-3; ///< share of the unseen that a candidate's row must see
 } // namespace
 
 Observed observe(const Eigen::MatrixXd& rows)
@@ -45,25 +46,42 @@ std::string unseen_names(const Observed& seen, const std::vector<std::string>& n
     return listed(found);
 }
 
-std::vector<std::string> remedies(const Observed& seen, const std::vector<Candidate>& candidates)
+namespace
+{
+/// What a row says about combinations not seen so far: its scaled part along them, nothing where it is rounding.
+Eigen::VectorXd shown(const Eigen::MatrixXd& left, const Observed& seen, const Eigen::VectorXd& row)
+{
+    const Eigen::VectorXd scaled = row.cwiseQuotient(seen.scale);
+    const Eigen::VectorXd part = left.transpose() * scaled;
+    const double length = scaled.norm();
+    return part.norm() > SHOWN * length ? Eigen::VectorXd(part / length) : Eigen::VectorXd::Zero(part.size());
+}
+} // namespace
+
+std::vector<std::string> remedies(const std::vector<Observed>& sensors, const std::vector<Candidate>& candidates)
 {
     std::vector<std::string> chosen;
-    Eigen::MatrixXd left = seen.unseen;
-    while (left.cols() > 0)
+    std::vector<Eigen::MatrixXd> left;
+    for (const Observed& seen : sensors)
+    {
+        left.push_back(seen.unseen);
+    }
+    const auto unseen = [](const Eigen::MatrixXd& m) { return m.cols() > 0; };
+    while (std::any_of(left.begin(), left.end(), unseen))
     {
         const Candidate* best = nullptr;
-        Eigen::VectorXd best_part;
-        double most = SHOWN;
+        double most = 0;
         for (const Candidate& candidate : candidates)
         {
-            const Eigen::VectorXd row = candidate.row.cwiseQuotient(seen.scale);
-            const Eigen::VectorXd part = left.transpose() * row;
-            const double share = row.norm() > 0 ? part.norm() / row.norm() : 0;
-            if (share > 1.001 * most) // of equals the first
+            double sum = 0;
+            for (size_t j = 0; j < sensors.size(); j++)
+            {
+                sum += shown(left[j], sensors[j], candidate.rows[j]).norm();
+            }
+            if (sum > most * (1 + RANK_TOLERANCE)) // of equals the first
             {
                 best = &candidate;
-                best_part = part;
-                most = share;
+                most = sum;
             }
         }
         if (best == nullptr)
@@ -71,10 +89,16 @@ std::vector<std::string> remedies(const Observed& seen, const std::vector<Candid
             return {};
         }
         chosen.push_back(best->name);
-        // What is left is orthogonal to what the new row sees.
-        const Eigen::HouseholderQR<Eigen::MatrixXd> turn(best_part);
-        const Eigen::MatrixXd basis = turn.householderQ() * Eigen::MatrixXd::Identity(left.cols(), left.cols());
-        left = (left * basis).rightCols(left.cols() - 1).eval();
+        for (size_t j = 0; j < sensors.size(); j++)
+        {
+            const Eigen::VectorXd part = shown(left[j], sensors[j], best->rows[j]);
+            if (part.norm() > 0) // what is left is orthogonal to what the new row sees
+            {
+                const Eigen::HouseholderQR<Eigen::MatrixXd> turn(part);
+                const Eigen::MatrixXd basis = turn.householderQ();
+                left[j] = (left[j] * basis).rightCols(left[j].cols() - 1).eval();
+            }
+        }
     }
     return chosen;
 }

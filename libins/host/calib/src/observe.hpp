@@ -9,11 +9,13 @@
 
 namespace ins_calib
 {
-/// A pose that could be added: its name, and the row that it would bring.
+constexpr double RANK_TOLERANCE = 1e-9; ///< of the largest singular value; exact geometry leaves some 1e-15
+
+/// A pose that could be added: its name, and the row that it would bring to each sensor.
 struct Candidate
 {
     std::string name;
-    Eigen::VectorXd row;
+    std::vector<Eigen::VectorXd> rows;
 };
 
 struct Observed
@@ -28,8 +30,8 @@ struct Observed
 Observed observe(const Eigen::MatrixXd& rows);
 /// Which unknowns are in what is unseen, "r_x", or "r_x with r_y" for a combination.
 std::string unseen_names(const Observed& seen, const std::vector<std::string>& names);
-/// The fewest candidates found, one by one, each the one that shows most of what is left; empty when all of them do not suffice.
-std::vector<std::string> remedies(const Observed& seen, const std::vector<Candidate>& candidates);
+/// Candidates after which no sensor has anything unseen, one by one, each the one that shows most; empty when all do not suffice.
+std::vector<std::string> remedies(const std::vector<Observed>& sensors, const std::vector<Candidate>& candidates);
 /// "a, b and c".
 std::string listed(const std::vector<std::string>& words);
 } // namespace ins_calib
