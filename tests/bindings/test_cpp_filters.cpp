@@ -212,6 +212,56 @@ TEST(cpp_vector_gps_dr, unicycle)
     EXPECT_GT(nis, INS_KALMAN_GATE2_99);
 }
 
+TEST(cpp_gps_dr, both_pairs_do_what_their_c_functions_do)
+{
+    ins_gps_dr_config_t cfg;
+    ins_gps_dr_config_default(&cfg);
+    ins_gps_dr_paper_config_t paper_cfg;
+    ins_gps_dr_paper_config_default(&paper_cfg, INS_GPS_DR_PAPER_PRINTED);
+    ins::GpsDr ours;
+    ins::GpsDrPaper paper;
+    ins_gps_dr_t raw;
+    ins::Vector<6> x;
+    ins::Square<6> P;
+    ins::Vector<4> y;
+    ins::Vector<4> var;
+    ASSERT_EQ(ours.init(cfg), ins::Status::Ok);
+    ASSERT_EQ(paper.init(paper_cfg), ins::Status::Ok);
+    ASSERT_EQ(ins_gps_dr_init(&raw, &cfg), INS_OK);
+    EXPECT_EQ(ours.state(x, P), ins::Status::State);
+    ins_gps_dr_fix_t fix = {};
+    fix.sigma = 3;
+    fix.valid = fix.has_course = 1;
+    fix.sats = 8;
+    fix.speed = 8;
+    for (int k = 0; k < 50; k++)
+    {
+        ASSERT_EQ(ours.step(INS_C(0.1), 0, INS_C(0.8)), ins::Status::Ok);
+        ASSERT_EQ(paper.step(0, INS_C(0.8)), ins::Status::Ok);
+        ASSERT_EQ(ins_gps_dr_step(&raw, INS_C(0.1), 0, INS_C(0.8)), INS_OK);
+        fix.north += INS_C(0.8);
+        ASSERT_EQ(k % 10 ? ins::Status::Ok : ours.fix(fix), ins::Status::Ok);
+        ASSERT_EQ(k % 10 ? ins::Status::Ok : paper.fix(fix), ins::Status::Ok);
+        ASSERT_EQ(k % 10 ? INS_OK : ins_gps_dr_fix(&raw, &fix), INS_OK);
+    }
+    ins_real want[6];
+    ASSERT_EQ(ins_gps_dr_state(&raw, want, nullptr), INS_OK);
+    ASSERT_EQ(ours.state(x, P), ins::Status::Ok);
+    EXPECT_TRUE(std::equal(want, want + 6, x.data()));
+    EXPECT_NEAR(static_cast<double>(x(INS_UNICYCLE_NORTH)), 40, 1);
+    EXPECT_EQ(ours.source(), INS_GPS_DR_GPS);
+    ASSERT_EQ(paper.state(y, var), ins::Status::Ok);
+    EXPECT_NEAR(static_cast<double>(y(1)), 40, 5) << "it finds the speed from five fixes";
+    EXPECT_EQ(paper.source(), INS_GPS_DR_GPS);
+    ins::Unicycle local;
+    local.raw = raw.local[0];
+    ins_real nis = 0;
+    ins_real det = 0;
+    EXPECT_EQ(local.judge({x(0), x(1)}, 9, nis, det), ins::Status::Ok);
+    EXPECT_NEAR(static_cast<double>(nis), 0, 1e-9);
+    EXPECT_EQ(local.course(x(2), INS_C(0.01)), ins::Status::Ok);
+}
+
 TEST(cpp_vector_gps_dr, switch_with_hysteresis)
 {
     const json s = load("gps_dr.json")["switch"];

@@ -125,18 +125,33 @@ ins_status_t ins_unicycle_still(ins_unicycle_t* self, ins_real yaw_rate, ins_rea
     return update(self, bias, &zb);
 }
 
-ins_status_t ins_unicycle_gps(ins_unicycle_t* self, ins_real east, ins_real north, ins_real r, ins_real* nis)
+ins_status_t ins_unicycle_judge(const ins_unicycle_t* self, ins_real east, ins_real north, ins_real r, ins_real* nis,
+                                ins_real* det)
 {
-    static const ins_real to_east[N] = {1, 0, 0, 0, 0, 0};
-    static const ins_real to_north[N] = {0, 1, 0, 0, 0, 0};
     const ins_real ve = east - self->x[INS_UNICYCLE_EAST];
     const ins_real vn = north - self->x[INS_UNICYCLE_NORTH];
     const ins_real see = self->P[0] + r;
     const ins_real sen = self->P[1];
     const ins_real snn = self->P[N + 1] + r;
-    const ins_real det = see * snn - sen * sen;
-    const ins_real joint = (ve * ve * snn - 2 * ve * vn * sen + vn * vn * see) / det;
-    if (!(r > 0) || !(det > 0) || !(joint <= INS_REAL_MAX))
+    const ins_real d = see * snn - sen * sen;
+    const ins_real joint = (ve * ve * snn - 2 * ve * vn * sen + vn * vn * see) / d;
+    if (!(r > 0) || !(d > 0) || !(joint <= INS_REAL_MAX))
+    {
+        return INS_E_RANGE;
+    }
+    *nis = joint;
+    *det = d;
+    return INS_OK;
+}
+
+ins_status_t ins_unicycle_gps(ins_unicycle_t* self, ins_real east, ins_real north, ins_real r, ins_real* nis)
+{
+    static const ins_real to_east[N] = {1, 0, 0, 0, 0, 0};
+    static const ins_real to_north[N] = {0, 1, 0, 0, 0, 0};
+    ins_real joint;
+    ins_real det;
+    ins_innovation_t z = {east - self->x[INS_UNICYCLE_EAST], r, 0, 0};
+    if (ins_unicycle_judge(self, east, north, r, &joint, &det) != INS_OK)
     {
         return INS_E_RANGE;
     }
@@ -148,7 +163,6 @@ ins_status_t ins_unicycle_gps(ins_unicycle_t* self, ins_real east, ins_real nort
     {
         return INS_E_GATE;
     }
-    ins_innovation_t z = {ve, r, 0, 0};
     const ins_status_t status = update(self, to_east, &z);
     if (status != INS_OK)
     {
@@ -156,4 +170,20 @@ ins_status_t ins_unicycle_gps(ins_unicycle_t* self, ins_real east, ins_real nort
     }
     z.v = north - self->x[INS_UNICYCLE_NORTH];
     return update(self, to_north, &z);
+}
+
+ins_status_t ins_unicycle_course(ins_unicycle_t* self, ins_real course, ins_real r, ins_real gate, ins_real* nis)
+{
+    static const ins_real to_heading[N] = {0, 0, 1, 0, 0, 0};
+    if (!(ins_fabs(course) < ANGLE_MAX))
+    {
+        return INS_E_RANGE;
+    }
+    ins_innovation_t z = {ins_elementary_wrap(course - self->x[INS_UNICYCLE_HEADING]), r, gate, 0};
+    const ins_status_t status = update(self, to_heading, &z);
+    if (nis)
+    {
+        *nis = z.nis;
+    }
+    return status;
 }

@@ -1,5 +1,5 @@
 /// \file   ins/gps_dr.hpp
-/// \brief  GPS and dead-reckoning filters of set size: a coordinate of a fix, the paper's, the vehicle's. Units: m, s, rad.
+/// \brief  GPS and dead-reckoning filters of set size: a coordinate of a fix, the paper's, the vehicle's, both pairs. Units: m, s, rad.
 ///
 /// Thin: each function is one call of the C function named the same, whose header says frames, units and ranges. nis is as in
 /// ins_innovation_t, set also when the gate refuses.
@@ -9,6 +9,8 @@
 #include "ins/dead_reckoning.h"
 #include "ins/eigen.hpp"
 #include "ins/gps_axis.h"
+#include "ins/gps_dr.h"
+#include "ins/gps_dr_paper.h"
 #include "ins/unicycle.h"
 
 namespace ins
@@ -72,10 +74,59 @@ class Unicycle
     {
         return detail::status(ins_unicycle_gps(&raw, en.x(), en.y(), r, nis));
     }
+    Status judge(const Vector2& en, Real r, Real& nis, Real& det) const
+    {
+        return detail::status(ins_unicycle_judge(&raw, en.x(), en.y(), r, &nis, &det));
+    }
+    Status course(Real course, Real r, Real gate = 0, Real* nis = nullptr)
+    {
+        return detail::status(ins_unicycle_course(&raw, course, r, gate, nis));
+    }
     [[nodiscard]] Vector<6> x() const { return Vector<6>(raw.x); }
     [[nodiscard]] Square<6> P() const { return Square<6>(raw.P); }
 
     ins_unicycle_t raw = {};
+};
+
+/// The decentralised pair that finds its heading: ins_gps_dr_t.
+class GpsDr
+{
+  public:
+    Status init(const ins_gps_dr_config_t& cfg) { return detail::status(ins_gps_dr_init(&raw, &cfg)); }
+    Status step(Real dt, Real yaw_rate, Real distance)
+    {
+        return detail::status(ins_gps_dr_step(&raw, dt, yaw_rate, distance));
+    }
+    Status fix(const ins_gps_dr_fix_t& fix) { return detail::status(ins_gps_dr_fix(&raw, &fix)); }
+    /// INS_GPS_DR_NONE ...
+    [[nodiscard]] int source() const { return ins_gps_dr_source(&raw); }
+    /// x as of Unicycle. P is column-major as well: it is symmetric.
+    Status state(Vector<6>& x, Square<6>& P) const
+    {
+        return detail::status(ins_gps_dr_state(&raw, x.data(), P.data()));
+    }
+
+    ins_gps_dr_t raw = {};
+};
+
+/// The paper's pair: ins_gps_dr_paper_t.
+class GpsDrPaper
+{
+  public:
+    Status init(const ins_gps_dr_paper_config_t& cfg) { return detail::status(ins_gps_dr_paper_init(&raw, &cfg)); }
+    Status step(Real yaw_rate, Real distance)
+    {
+        return detail::status(ins_gps_dr_paper_step(&raw, yaw_rate, distance));
+    }
+    Status fix(const ins_gps_dr_fix_t& fix) { return detail::status(ins_gps_dr_paper_fix(&raw, &fix)); }
+    [[nodiscard]] int source() const { return ins_gps_dr_paper_source(&raw); }
+    /// East, north, their velocities; their variances.
+    Status state(Vector<4>& x, Vector<4>& var) const
+    {
+        return detail::status(ins_gps_dr_paper_state(&raw, x.data(), var.data()));
+    }
+
+    ins_gps_dr_paper_t raw = {};
 };
 } // namespace ins
 

@@ -248,6 +248,28 @@ void bind_unicycle(nb::module_& m)
         },
         "east"_a, "north"_a, "r"_a,
         "A fix [m], variance r on each coordinate. Returns its joint nis, or raises GateError.");
+    unicycle.def(
+        "judge",
+        [](const ins_unicycle_t& self, double east, double north, double r)
+        {
+            ins_real nis = 0;
+            ins_real det = 0;
+            Call("Unicycle.judge", "finite fix, r > 0")
+                .check(ins_unicycle_judge(&self, as_real(east), as_real(north), as_real(r), &nis, &det));
+            return std::pair{static_cast<double>(nis), static_cast<double>(det)};
+        },
+        "east"_a, "north"_a, "r"_a, "(Joint nis of a fix that is not used, determinant of its covariance [m^4]).");
+    unicycle.def(
+        "course",
+        [](ins_unicycle_t& self, double course, double r, double gate)
+        {
+            ins_real nis = 0;
+            expect(Call("Unicycle.course", "|course| < 1000, r > 0, nis within the gate"),
+                   ins_unicycle_course(&self, as_real(course), as_real(r), as_real(gate), &nis), nis);
+            return static_cast<double>(nis);
+        },
+        "course"_a, "r"_a, "gate"_a = 0.0,
+        "Direction of travel, clockwise from north [rad], of variance r. Returns its nis, or raises GateError.");
     writes(unicycle, "x", &ins_unicycle_t::x, {6}, "State, (6,).");
     reads(unicycle, "P", &ins_unicycle_t::P, {6, 6}, "Covariance, (6, 6).");
     copies(unicycle);

@@ -13,6 +13,7 @@ pub const INS_GIMU_T1_LEN: u32 = 14;
 pub const INS_GIMU_T2_LEN: u32 = 23;
 pub const INS_GIMU_LOOK: u32 = 25;
 pub const INS_GIMU_RATE_HZ: u32 = 6;
+pub const INS_GPS_DR_HEADINGS: u32 = 8;
 pub const INS_HS_BLOCK_MAX: u32 = 32;
 pub const INS_HS_REQUEST: u32 = 170;
 pub const INS_HS_READY: u32 = 187;
@@ -719,6 +720,287 @@ extern "C" {
     #[doc = "epoch is predicted all the same."]
     pub fn ins_gps_axis_step(self_: *mut ins_gps_axis_t, z: ins_real, nis: *mut ins_real) -> ins_status_t;
 }
+pub const INS_UNICYCLE_EAST: _bindgen_ty_6 = 0;
+pub const INS_UNICYCLE_NORTH: _bindgen_ty_6 = 1;
+pub const INS_UNICYCLE_HEADING: _bindgen_ty_6 = 2;
+pub const INS_UNICYCLE_SPEED: _bindgen_ty_6 = 3;
+pub const INS_UNICYCLE_BIAS: _bindgen_ty_6 = 4;
+pub const INS_UNICYCLE_SCALE: _bindgen_ty_6 = 5;
+pub type _bindgen_ty_6 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_unicycle_config_t {
+    #[doc = "growth of the speed's variance [(m/s)^2/s]"]
+    pub q_speed: ins_real,
+    #[doc = "of the gyro bias's [(rad/s)^2/s]"]
+    pub q_bias: ins_real,
+    #[doc = "of the odometer scale's [1/s]"]
+    pub q_scale: ins_real,
+    #[doc = "variance of a yaw-rate sample [(rad/s)^2]"]
+    pub r_rate: ins_real,
+    #[doc = "variance of a distance [m^2]"]
+    pub r_distance: ins_real,
+    #[doc = "of the odometer's innovation, 1 degree of freedom; 0: none"]
+    pub gate: ins_real,
+    #[doc = "of a fix, 2 degrees of freedom: INS_KALMAN_GATE2_99 is good; 0: none"]
+    pub gate_gps: ins_real,
+}
+#[doc = "Owned by the caller; readable."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_unicycle_t {
+    pub cfg: ins_unicycle_config_t,
+    pub x: [ins_real; 6usize],
+    pub P: [ins_real; 36usize],
+}
+impl Default for ins_unicycle_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
+extern "C" {
+    #[doc = "\\param[in] x  [6] start; the heading is wrapped. \\param[in] var  [6] its variances."]
+    #[doc = "\\return INS_E_RANGE: r not positive, another figure negative, not a number, or the heading beyond +-1000 rad."]
+    pub fn ins_unicycle_init(
+        self_: *mut ins_unicycle_t,
+        cfg: *const ins_unicycle_config_t,
+        x: *const ins_real,
+        var: *const ins_real,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Move by dt [s] with the gyro's yaw rate [rad/s]. \\return INS_E_RANGE, nothing changed: dt not positive, or |yaw_rate dt| > 1000."]
+    pub fn ins_unicycle_predict(self_: *mut ins_unicycle_t, dt: ins_real, yaw_rate: ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Distance counted in the dt before. \\param[out] nis  may be 0. \\return as ins_kalman_update()."]
+    pub fn ins_unicycle_odometer(self_: *mut ins_unicycle_t, dt: ins_real, distance: ins_real, nis: *mut ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Known to stand still: the gyro reads its bias, the speed is 0. \\param[in] r_speed  how sure [(m/s)^2]. \\return as above."]
+    pub fn ins_unicycle_still(self_: *mut ins_unicycle_t, yaw_rate: ins_real, r_speed: ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "A fix, variance r on each coordinate [m^2]. Judged as one, by its joint nis. \\return as ins_kalman_update()."]
+    pub fn ins_unicycle_gps(self_: *mut ins_unicycle_t, east: ins_real, north: ins_real, r: ins_real, nis: *mut ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "What the fix would be judged by. \\param[out] nis  joint, 2 degrees of freedom. \\param[out] det  of its innovation's covariance"]
+    #[doc = "[m^4]. \\return INS_E_RANGE: r is not positive, or not a number; nothing is given."]
+    pub fn ins_unicycle_judge(
+        self_: *const ins_unicycle_t,
+        east: ins_real,
+        north: ins_real,
+        r: ins_real,
+        nis: *mut ins_real,
+        det: *mut ins_real,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "The direction of travel, of a receiver for example: clockwise from north [rad], |course| < 1000. \\param[in] r  its variance [rad^2]."]
+    #[doc = "\\param[in] gate  as ins_innovation_t. \\param[out] nis  may be 0. \\return as ins_kalman_update()."]
+    pub fn ins_unicycle_course(
+        self_: *mut ins_unicycle_t,
+        course: ins_real,
+        r: ins_real,
+        gate: ins_real,
+        nis: *mut ins_real,
+    ) -> ins_status_t;
+}
+#[doc = "no fix yet"]
+pub const INS_GPS_DR_NONE: _bindgen_ty_7 = 0;
+#[doc = "fixes; the heading is being found"]
+pub const INS_GPS_DR_ALIGN: _bindgen_ty_7 = 1;
+#[doc = "dead reckoning"]
+pub const INS_GPS_DR_DR: _bindgen_ty_7 = 2;
+pub const INS_GPS_DR_GPS: _bindgen_ty_7 = 3;
+#[doc = "What the state rests on."]
+pub type _bindgen_ty_7 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_dr_config_t {
+    #[doc = "noise and the odometer's gate; gate_gps is not used"]
+    pub vehicle: ins_unicycle_config_t,
+    #[doc = "its gate is for the nis of a fix with the deviation it states"]
+    pub choice: ins_switch_config_t,
+    #[doc = "gyro bias at the start [rad/s]"]
+    pub sigma_bias: ins_real,
+    #[doc = "odometer scale at the start"]
+    pub sigma_scale: ins_real,
+    #[doc = "correlation time of a fix's error [s]; 0: white"]
+    pub tau_fix: ins_real,
+    #[doc = "nis above which a fix is not used at all; 0: none"]
+    pub gate_gross: ins_real,
+    #[doc = "of the receiver's velocity: its course has sigma_velocity/speed [m/s]"]
+    pub sigma_velocity: ins_real,
+    #[doc = "speed from which the course is used [m/s]"]
+    pub course_min: ins_real,
+    #[doc = "no distance for so long: it stands [s]; 0: never"]
+    pub still_after: ins_real,
+    #[doc = "without a fix for so long: dead reckoning [s]"]
+    pub fix_max_age: ins_real,
+    #[doc = "gross fixes in a row after which it starts again; 0: never"]
+    pub restart: uint_least8_t,
+}
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_dr_fix_t {
+    #[doc = "[m]"]
+    pub east: ins_real,
+    #[doc = "[m]"]
+    pub north: ins_real,
+    #[doc = "of each [m]"]
+    pub sigma: ins_real,
+    #[doc = "how long ago it was so [s]"]
+    pub age: ins_real,
+    pub hdop: ins_real,
+    #[doc = "clockwise from north [rad]; [m/s]"]
+    pub course: ins_real,
+    #[doc = "clockwise from north [rad]; [m/s]"]
+    pub speed: ins_real,
+    #[doc = "0: there is no fix, nothing else is read"]
+    pub valid: uint_least8_t,
+    #[doc = "satellites used"]
+    pub sats: uint_least8_t,
+    #[doc = "course and speed are known"]
+    pub has_course: uint_least8_t,
+}
+#[doc = "Owned by the caller; readable."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_gps_dr_t {
+    pub cfg: ins_gps_dr_config_t,
+    #[doc = "with `paired`: [0] reckons, [1] takes fixes as well"]
+    pub local: [ins_unicycle_t; 8usize],
+    #[doc = "of each heading, the best 1"]
+    pub weight: [ins_real; 8usize],
+    #[doc = "of local; 0: not started"]
+    pub count: uint_least8_t,
+    pub paired: uint_least8_t,
+    pub choice: ins_switch_t,
+    #[doc = "[s]"]
+    pub since_fix: ins_real,
+    #[doc = "no distance for this long [s]"]
+    pub stood: ins_real,
+    #[doc = "of the last fix"]
+    pub nis: ins_real,
+    #[doc = "gross fixes in a row"]
+    pub gross_run: uint_least8_t,
+    #[doc = "fixes"]
+    pub used: uint_least32_t,
+    #[doc = "fixes that made the switch say DR"]
+    pub doubted: uint_least32_t,
+    #[doc = "fixes refused"]
+    pub gross: uint_least32_t,
+    pub restarts: uint_least32_t,
+}
+impl Default for ins_gps_dr_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
+extern "C" {
+    #[doc = "A car with a MEMS gyro and wheel pulses, a receiver between buildings (docs/gps_dr.md)."]
+    pub fn ins_gps_dr_config_default(cfg: *mut ins_gps_dr_config_t);
+}
+extern "C" {
+    #[doc = "\\return INS_E_RANGE: as ins_unicycle_init() and ins_switch_init() with theirs; one of the others is negative or not a number."]
+    pub fn ins_gps_dr_init(self_: *mut ins_gps_dr_t, cfg: *const ins_gps_dr_config_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "dt [s] have passed. \\param[in] yaw_rate  clockwise, their mean [rad/s]. \\param[in] distance  counted in them [m]."]
+    #[doc = "\\return INS_OK; INS_E_GATE: the distance was refused and not used; INS_E_RANGE: dt is not positive, or one is not a number or beyond"]
+    #[doc = "1000 rad: nothing changed."]
+    pub fn ins_gps_dr_step(self_: *mut ins_gps_dr_t, dt: ins_real, yaw_rate: ins_real, distance: ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\return INS_OK; INS_E_GATE: gross, or its course was: that is not used; INS_E_RANGE: not a number, or sigma is not positive."]
+    pub fn ins_gps_dr_fix(self_: *mut ins_gps_dr_t, fix: *const ins_gps_dr_fix_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "INS_GPS_DR_NONE ..."]
+    pub fn ins_gps_dr_source(self_: *const ins_gps_dr_t) -> ::core::ffi::c_int;
+}
+extern "C" {
+    #[doc = "\\param[out] x  [6] INS_UNICYCLE_EAST ... \\param[out] P  [36]; may be 0. \\return INS_E_STATE: no fix yet."]
+    pub fn ins_gps_dr_state(self_: *const ins_gps_dr_t, x: *mut ins_real, P: *mut ins_real) -> ins_status_t;
+}
+#[doc = "back to GPS at the first good fix, no gate of a fix, the yaw rate used at any speed"]
+pub const INS_GPS_DR_PAPER_PRINTED: _bindgen_ty_8 = 0;
+#[doc = "hysteresis, gate, yaw rate above 0.5 m/s only"]
+pub const INS_GPS_DR_PAPER_CORRECTED: _bindgen_ty_8 = 1;
+pub type _bindgen_ty_8 = ::core::ffi::c_uint;
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_dr_paper_config_t {
+    #[doc = "of east and of north"]
+    pub axis: ins_gps_axis_config_t,
+    pub dr: ins_dr_ekf_config_t,
+    pub choice: ins_switch_config_t,
+    #[doc = "of each velocity at the start [(m/s)^2]"]
+    pub var_velocity: ins_real,
+    #[doc = "[(m/s^2)^2]"]
+    pub var_acceleration: ins_real,
+}
+#[doc = "Owned by the caller; readable."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_gps_dr_paper_t {
+    pub cfg: ins_gps_dr_paper_config_t,
+    #[doc = "east, north"]
+    pub axis: [ins_gps_axis_t; 2usize],
+    pub dr: ins_dr_ekf_t,
+    pub choice: ins_switch_t,
+    pub started: uint_least8_t,
+    #[doc = "of the last fix, both coordinates"]
+    pub nis: ins_real,
+    #[doc = "fixes"]
+    pub used: uint_least32_t,
+    #[doc = "by the gate of an axis, or not a number"]
+    pub refused: uint_least32_t,
+}
+impl Default for ins_gps_dr_paper_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
+extern "C" {
+    #[doc = "Tasks of 100 ms and 1 s. \\param[in] reading  INS_GPS_DR_PAPER_PRINTED or _CORRECTED."]
+    pub fn ins_gps_dr_paper_config_default(cfg: *mut ins_gps_dr_paper_config_t, reading: ::core::ffi::c_int);
+}
+extern "C" {
+    #[doc = "\\return INS_E_RANGE: as the parts' own init."]
+    pub fn ins_gps_dr_paper_init(self_: *mut ins_gps_dr_paper_t, cfg: *const ins_gps_dr_paper_config_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\return as ins_dr_ekf_step(); INS_OK before the first fix."]
+    pub fn ins_gps_dr_paper_step(self_: *mut ins_gps_dr_paper_t, yaw_rate: ins_real, distance: ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Sigma, age and course are not read: the paper's filters have one variance for all. \\return as ins_gps_axis_step(); INS_OK when"]
+    #[doc = "the fix is not valid."]
+    pub fn ins_gps_dr_paper_fix(self_: *mut ins_gps_dr_paper_t, fix: *const ins_gps_dr_fix_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "INS_GPS_DR_NONE, _DR or _GPS."]
+    pub fn ins_gps_dr_paper_source(self_: *const ins_gps_dr_paper_t) -> ::core::ffi::c_int;
+}
+extern "C" {
+    #[doc = "\\param[out] x  [4] east, north, their velocities. \\param[out] var  [4] variances. \\return INS_E_STATE: no fix yet."]
+    pub fn ins_gps_dr_paper_state(self_: *const ins_gps_dr_paper_t, x: *mut ins_real, var: *mut ins_real) -> ins_status_t;
+}
 #[doc = "Both sides take one; a member that the other side alone uses may be 0. reply_timeout must be longer than octet_timeout and one"]
 #[doc = "exchange of octets, so that the host is back in idle when the board asks again."]
 #[repr(C)]
@@ -779,15 +1061,15 @@ extern "C" {
     #[doc = "Time passes: call at least every reply_timeout / 2 or so; expires waits."]
     pub fn ins_hs_board_tick(self_: *mut ins_hs_board_t, now: u16);
 }
-pub const INS_HS_NOTHING: _bindgen_ty_6 = 0;
+pub const INS_HS_NOTHING: _bindgen_ty_9 = 0;
 #[doc = "a new block is in self->block (sequence nibbles removed), self->seq and self->gap are set"]
-pub const INS_HS_BLOCK: _bindgen_ty_6 = 1;
+pub const INS_HS_BLOCK: _bindgen_ty_9 = 1;
 #[doc = "a block already delivered came again (cfg.seq only); it was acknowledged"]
-pub const INS_HS_DUPLICATE: _bindgen_ty_6 = 2;
+pub const INS_HS_DUPLICATE: _bindgen_ty_9 = 2;
 #[doc = "the sum did not agree; FF was answered, or the tries are used up"]
-pub const INS_HS_CORRUPT: _bindgen_ty_6 = 3;
+pub const INS_HS_CORRUPT: _bindgen_ty_9 = 3;
 #[doc = "What an octet led to, on the host."]
-pub type _bindgen_ty_6 = ::core::ffi::c_uint;
+pub type _bindgen_ty_9 = ::core::ffi::c_uint;
 #[doc = "Host side (B). Start with ins_hs_host_init(). Members are private, block, seq, gap and the counters readable."]
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
@@ -971,17 +1253,17 @@ extern "C" {
     pub fn ins_position_difference(a: *const ins_position_t, b: *const ins_position_t, ned: *mut ins_real);
 }
 #[doc = "attitude, in n [rad]"]
-pub const INS_KF15_PHI: _bindgen_ty_8 = 0;
+pub const INS_KF15_PHI: _bindgen_ty_11 = 0;
 #[doc = "velocity, in n [m/s]"]
-pub const INS_KF15_V: _bindgen_ty_8 = 3;
+pub const INS_KF15_V: _bindgen_ty_11 = 3;
 #[doc = "position, north, east, down [m]"]
-pub const INS_KF15_P: _bindgen_ty_8 = 6;
+pub const INS_KF15_P: _bindgen_ty_11 = 6;
 #[doc = "gyro bias, in b [rad/s]"]
-pub const INS_KF15_BG: _bindgen_ty_8 = 9;
+pub const INS_KF15_BG: _bindgen_ty_11 = 9;
 #[doc = "accelerometer bias, in b [m/s^2]"]
-pub const INS_KF15_BA: _bindgen_ty_8 = 12;
+pub const INS_KF15_BA: _bindgen_ty_11 = 12;
 #[doc = "Where three errors begin."]
-pub type _bindgen_ty_8 = ::core::ffi::c_uint;
+pub type _bindgen_ty_11 = ::core::ffi::c_uint;
 #[doc = "Owned by the caller; readable. Start with ins_kf15_init()."]
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -1141,19 +1423,19 @@ extern "C" {
     #[doc = "As ins_hs_host_tick()."]
     pub fn ins_link_host_tick(self_: *mut ins_link_host_t, now: u16);
 }
-pub const INS_NAV_BLOCK_ALIGNED: _bindgen_ty_9 = 1;
-pub const INS_NAV_BLOCK_INTEGER: _bindgen_ty_9 = 2;
-pub const INS_NAV_BLOCK_FRACTION: _bindgen_ty_9 = 4;
-pub const INS_NAV_BLOCK_POSITION: _bindgen_ty_9 = 8;
-pub const INS_NAV_BLOCK_FILTER: _bindgen_ty_9 = 16;
-pub const INS_NAV_BLOCK_ZONE_119: _bindgen_ty_9 = 32;
-pub const INS_NAV_BLOCK_GATED: _bindgen_ty_9 = 64;
-pub const INS_NAV_BLOCK_LINE_ERROR: _bindgen_ty_9 = 128;
-pub const INS_NAV_BLOCK_GAP: _bindgen_ty_9 = 256;
-pub const INS_NAV_BLOCK_WATCHDOG: _bindgen_ty_9 = 512;
-pub const INS_NAV_BLOCK_CLIPPED: _bindgen_ty_9 = 1024;
-pub const INS_NAV_BLOCK_STATUS_ALL: _bindgen_ty_9 = 2047;
-pub type _bindgen_ty_9 = ::core::ffi::c_uint;
+pub const INS_NAV_BLOCK_ALIGNED: _bindgen_ty_12 = 1;
+pub const INS_NAV_BLOCK_INTEGER: _bindgen_ty_12 = 2;
+pub const INS_NAV_BLOCK_FRACTION: _bindgen_ty_12 = 4;
+pub const INS_NAV_BLOCK_POSITION: _bindgen_ty_12 = 8;
+pub const INS_NAV_BLOCK_FILTER: _bindgen_ty_12 = 16;
+pub const INS_NAV_BLOCK_ZONE_119: _bindgen_ty_12 = 32;
+pub const INS_NAV_BLOCK_GATED: _bindgen_ty_12 = 64;
+pub const INS_NAV_BLOCK_LINE_ERROR: _bindgen_ty_12 = 128;
+pub const INS_NAV_BLOCK_GAP: _bindgen_ty_12 = 256;
+pub const INS_NAV_BLOCK_WATCHDOG: _bindgen_ty_12 = 512;
+pub const INS_NAV_BLOCK_CLIPPED: _bindgen_ty_12 = 1024;
+pub const INS_NAV_BLOCK_STATUS_ALL: _bindgen_ty_12 = 2047;
+pub type _bindgen_ty_12 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_nav_block_t {
@@ -1180,23 +1462,23 @@ extern "C" {
     #[doc = "\\return INS_OK; INS_E_RANGE for another version, bits that are always 0, or components that are no quaternion's; nav is then unchanged."]
     pub fn ins_nav_block_get(block: *const ins_octet_t, nav: *mut ins_nav_block_t) -> ins_status_t;
 }
-pub const INS_NMEA_NOTHING: _bindgen_ty_10 = 0;
-pub const INS_NMEA_GGA: _bindgen_ty_10 = 1;
-pub const INS_NMEA_RMC: _bindgen_ty_10 = 2;
-pub const INS_NMEA_VTG: _bindgen_ty_10 = 3;
+pub const INS_NMEA_NOTHING: _bindgen_ty_13 = 0;
+pub const INS_NMEA_GGA: _bindgen_ty_13 = 1;
+pub const INS_NMEA_RMC: _bindgen_ty_13 = 2;
+pub const INS_NMEA_VTG: _bindgen_ty_13 = 3;
 #[doc = "What an octet led to."]
-pub type _bindgen_ty_10 = ::core::ffi::c_uint;
-pub const INS_NMEA_TIME: _bindgen_ty_11 = 1;
-pub const INS_NMEA_POSITION: _bindgen_ty_11 = 2;
-pub const INS_NMEA_SATS: _bindgen_ty_11 = 4;
-pub const INS_NMEA_HDOP: _bindgen_ty_11 = 8;
-pub const INS_NMEA_ALTITUDE: _bindgen_ty_11 = 16;
-pub const INS_NMEA_GEOID: _bindgen_ty_11 = 32;
-pub const INS_NMEA_SPEED: _bindgen_ty_11 = 64;
-pub const INS_NMEA_COURSE: _bindgen_ty_11 = 128;
-pub const INS_NMEA_DATE: _bindgen_ty_11 = 256;
+pub type _bindgen_ty_13 = ::core::ffi::c_uint;
+pub const INS_NMEA_TIME: _bindgen_ty_14 = 1;
+pub const INS_NMEA_POSITION: _bindgen_ty_14 = 2;
+pub const INS_NMEA_SATS: _bindgen_ty_14 = 4;
+pub const INS_NMEA_HDOP: _bindgen_ty_14 = 8;
+pub const INS_NMEA_ALTITUDE: _bindgen_ty_14 = 16;
+pub const INS_NMEA_GEOID: _bindgen_ty_14 = 32;
+pub const INS_NMEA_SPEED: _bindgen_ty_14 = 64;
+pub const INS_NMEA_COURSE: _bindgen_ty_14 = 128;
+pub const INS_NMEA_DATE: _bindgen_ty_14 = 256;
 #[doc = "Bits of ins_nmea_fix_t.has."]
-pub type _bindgen_ty_11 = ::core::ffi::c_uint;
+pub type _bindgen_ty_14 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_nmea_fix_t {
@@ -1268,10 +1550,10 @@ extern "C" {
     #[doc = "An octet came. \\return INS_NMEA_GGA, RMC or VTG: self->fix has it; else INS_NMEA_NOTHING."]
     pub fn ins_nmea_rx(self_: *mut ins_nmea_t, octet: ins_octet_t) -> ::core::ffi::c_int;
 }
-pub const INS_PVA_POSITION: _bindgen_ty_12 = 0;
-pub const INS_PVA_VELOCITY: _bindgen_ty_12 = 1;
-pub const INS_PVA_ACCELERATION: _bindgen_ty_12 = 2;
-pub type _bindgen_ty_12 = ::core::ffi::c_uint;
+pub const INS_PVA_POSITION: _bindgen_ty_15 = 0;
+pub const INS_PVA_VELOCITY: _bindgen_ty_15 = 1;
+pub const INS_PVA_ACCELERATION: _bindgen_ty_15 = 2;
+pub type _bindgen_ty_15 = ::core::ffi::c_uint;
 #[doc = "Owned by the caller; readable."]
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
@@ -1674,74 +1956,6 @@ extern "C" {
 extern "C" {
     #[doc = "As ins_tm_inverse(), by equations 5.8 and 5.9."]
     pub fn ins_tm_thesis_inverse(self_: *const ins_tm_t, en: *const ins_real, lat_lon: *mut ins_real) -> ins_status_t;
-}
-pub const INS_UNICYCLE_EAST: _bindgen_ty_13 = 0;
-pub const INS_UNICYCLE_NORTH: _bindgen_ty_13 = 1;
-pub const INS_UNICYCLE_HEADING: _bindgen_ty_13 = 2;
-pub const INS_UNICYCLE_SPEED: _bindgen_ty_13 = 3;
-pub const INS_UNICYCLE_BIAS: _bindgen_ty_13 = 4;
-pub const INS_UNICYCLE_SCALE: _bindgen_ty_13 = 5;
-pub type _bindgen_ty_13 = ::core::ffi::c_uint;
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_unicycle_config_t {
-    #[doc = "growth of the speed's variance [(m/s)^2/s]"]
-    pub q_speed: ins_real,
-    #[doc = "of the gyro bias's [(rad/s)^2/s]"]
-    pub q_bias: ins_real,
-    #[doc = "of the odometer scale's [1/s]"]
-    pub q_scale: ins_real,
-    #[doc = "variance of a yaw-rate sample [(rad/s)^2]"]
-    pub r_rate: ins_real,
-    #[doc = "variance of a distance [m^2]"]
-    pub r_distance: ins_real,
-    #[doc = "of the odometer's innovation, 1 degree of freedom; 0: none"]
-    pub gate: ins_real,
-    #[doc = "of a fix, 2 degrees of freedom: INS_KALMAN_GATE2_99 is good; 0: none"]
-    pub gate_gps: ins_real,
-}
-#[doc = "Owned by the caller; readable."]
-#[repr(C)]
-#[derive(Debug, Copy, Clone)]
-pub struct ins_unicycle_t {
-    pub cfg: ins_unicycle_config_t,
-    pub x: [ins_real; 6usize],
-    pub P: [ins_real; 36usize],
-}
-impl Default for ins_unicycle_t {
-    fn default() -> Self {
-        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
-        unsafe {
-            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
-            s.assume_init()
-        }
-    }
-}
-extern "C" {
-    #[doc = "\\param[in] x  [6] start; the heading is wrapped. \\param[in] var  [6] its variances."]
-    #[doc = "\\return INS_E_RANGE: r not positive, another figure negative, not a number, or the heading beyond +-1000 rad."]
-    pub fn ins_unicycle_init(
-        self_: *mut ins_unicycle_t,
-        cfg: *const ins_unicycle_config_t,
-        x: *const ins_real,
-        var: *const ins_real,
-    ) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "Move by dt [s] with the gyro's yaw rate [rad/s]. \\return INS_E_RANGE, nothing changed: dt not positive, or |yaw_rate dt| > 1000."]
-    pub fn ins_unicycle_predict(self_: *mut ins_unicycle_t, dt: ins_real, yaw_rate: ins_real) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "Distance counted in the dt before. \\param[out] nis  may be 0. \\return as ins_kalman_update()."]
-    pub fn ins_unicycle_odometer(self_: *mut ins_unicycle_t, dt: ins_real, distance: ins_real, nis: *mut ins_real) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "Known to stand still: the gyro reads its bias, the speed is 0. \\param[in] r_speed  how sure [(m/s)^2]. \\return as above."]
-    pub fn ins_unicycle_still(self_: *mut ins_unicycle_t, yaw_rate: ins_real, r_speed: ins_real) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "A fix, variance r on each coordinate [m^2]. Judged as one, by its joint nis. \\return as ins_kalman_update()."]
-    pub fn ins_unicycle_gps(self_: *mut ins_unicycle_t, east: ins_real, north: ins_real, r: ins_real, nis: *mut ins_real) -> ins_status_t;
 }
 extern "C" {
     #[doc = "Version of the binary, as INS_VERSION."]

@@ -16,6 +16,8 @@
 #include "ins/geodesy.h"
 #include "ins/gimu.h"
 #include "ins/gps_axis.h"
+#include "ins/gps_dr.h"
+#include "ins/gps_dr_paper.h"
 #include "ins/handshake.h"
 #include "ins/hist2.h"
 #include "ins/ins_math.h"

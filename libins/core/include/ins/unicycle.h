@@ -56,6 +56,14 @@ INS_API ins_status_t ins_unicycle_odometer(ins_unicycle_t* self, ins_real dt, in
 INS_API ins_status_t ins_unicycle_still(ins_unicycle_t* self, ins_real yaw_rate, ins_real r_speed);
 /// A fix, variance r on each coordinate [m^2]. Judged as one, by its joint nis. \return as ins_kalman_update().
 INS_API ins_status_t ins_unicycle_gps(ins_unicycle_t* self, ins_real east, ins_real north, ins_real r, ins_real* nis);
+/// What the fix would be judged by. \param[out] nis  joint, 2 degrees of freedom. \param[out] det  of its innovation's covariance
+/// [m^4]. \return INS_E_RANGE: r is not positive, or not a number; nothing is given.
+INS_API ins_status_t ins_unicycle_judge(const ins_unicycle_t* self, ins_real east, ins_real north, ins_real r,
+                                        ins_real* nis, ins_real* det);
+/// The direction of travel, of a receiver for example: clockwise from north [rad], |course| < 1000. \param[in] r  its variance [rad^2].
+/// \param[in] gate  as ins_innovation_t. \param[out] nis  may be 0. \return as ins_kalman_update().
+INS_API ins_status_t ins_unicycle_course(ins_unicycle_t* self, ins_real course, ins_real r, ins_real gate,
+                                         ins_real* nis);
 
 #ifdef __cplusplus
 }
