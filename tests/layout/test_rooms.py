@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # room -> folder, include prefix of its public headers, CMake targets, and the rooms it may know
 ROOMS: dict[str, tuple[str, str, set[str], set[str]]] = {
     "core": ("libins/core", "ins/", {"ins_core", "ins_coref"}, set()),
-    "truth": ("libins/host/truth", "ins_truth/", {"ins_truth"}, {"core"}),
+    "truth": ("libins/host/truth", "ins_truth/", {"ins_truth", "ins_truth_cvode"}, {"core"}),
     "post": ("libins/host/post", "ins_post/", {"ins_post"}, {"core"}),
     "navd": ("libins/host/navd", "ins_nav/", {"ins_nav", "ins-navd"}, {"core", "dds"}),
     "dds": ("libins/host/dds", "ins_dds/", {"ins_dds", "ins_dds_idl"}, {"core", "navd"}),

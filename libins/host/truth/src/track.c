@@ -35,7 +35,7 @@ static void place_at(const ins_track_t* self, const double p_n[3], ins_place_t* 
     ins_place_of_xyz(xyz, place);
 }
 
-static void gravity_at(const ins_track_t* self, const double p_n[3], double g_n[3])
+void ins_track_gravity(const ins_track_t* self, const double p_n[3], double g_n[3])
 {
     if (self->site.gravity == INS_TRACK_G_THESIS)
     {
@@ -60,13 +60,63 @@ static void cross(const double a[3], const double b[3], double out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+static void fill_nan(ins_track_state_t* out)
+{
+    const double nan = (double)NAN;
+    *out = (ins_track_state_t){{nan, nan, nan},      {nan, nan, nan}, {nan, nan, nan},
+                               {nan, nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}};
+}
+
+void ins_track_state_of(const double y[INS_DENSE_SIZE], ins_track_state_t* out)
+{
+    const double length = sqrt(y[0] * y[0] + y[1] * y[1] + y[2] * y[2] + y[3] * y[3]);
+    *out = (ins_track_state_t){.p_n = {y[7], y[8], y[9]},
+                               .v_n = {y[4], y[5], y[6]},
+                               .q_nb = {y[0] / length, y[1] / length, y[2] / length, y[3] / length}};
+}
+
+static void body_at(const ins_track_t* self, double t, ins_track_state_t* out)
+{
+    const ins_track_body_t* const body = &self->body;
+    double y[INS_DENSE_SIZE];
+    double w_ib_b[3];
+    double f_b[3];
+    double g_n[3];
+    double coriolis[3];
+    if (!(t >= body->motion.start && t <= body->motion.end))
+    {
+        fill_nan(out);
+        return;
+    }
+    ins_dense_at(&body->motion, t, y);
+    ins_track_state_of(y, out);
+    if (!body->input.at(body->input.ctx, t, out, w_ib_b, f_b))
+    {
+        fill_nan(out);
+        return;
+    }
+    const double back[4] = {out->q_nb[0], -out->q_nb[1], -out->q_nb[2], -out->q_nb[3]};
+    ins_rotation_into_b(back, f_b, out->a_n);
+    ins_track_gravity(self, out->p_n, g_n);
+    cross(self->w_ie_n, out->v_n, coriolis);
+    for (int i = 0; i < 3; i++)
+    {
+        out->a_n[i] += g_n[i] - 2.0 * coriolis[i];
+        out->w_ib_b[i] = w_ib_b[i];
+        out->f_b[i] = f_b[i];
+    }
+}
+
 void ins_track_at(const ins_track_t* self, double t, ins_track_state_t* out)
 {
     if (!(fabs(t) <= INS_TRACK_TIME_MAX_S))
     {
-        const double nan = (double)NAN;
-        *out = (ins_track_state_t){{nan, nan, nan},      {nan, nan, nan}, {nan, nan, nan},
-                                   {nan, nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}};
+        fill_nan(out);
+        return;
+    }
+    if (self->kind == INS_TRACK_BODY)
+    {
+        body_at(self, t, out);
         return;
     }
     ins_track_path_t path;
@@ -75,7 +125,7 @@ void ins_track_at(const ins_track_t* self, double t, ins_track_state_t* out)
     double f_n[3];
     double w_ie_b[3];
     ins_track_path(self, t, &path);
-    gravity_at(self, path.p, g_n);
+    ins_track_gravity(self, path.p, g_n);
     cross(self->w_ie_n, path.v, coriolis);
     if (self->attitude != NULL)
     {
@@ -128,4 +178,10 @@ void ins_track_motion(void* track, int64_t t_ps, double w_ib_b[3], double f_b[3]
         w_ib_b[i] = state.w_ib_b[i];
         f_b[i] = state.f_b[i];
     }
+}
+
+size_t ins_track_happenings(const ins_track_t* track, const ins_body_happening_t** happenings)
+{
+    *happenings = track->body.happening;
+    return track->body.happenings;
 }

@@ -36,10 +36,9 @@ static bool check_speed(const ins_track_speed_t* speed, const ins_why_t* why)
            ins_why_range(why, "speed: ", "brake_s", speed->brake_s, 1e-2, 1e6);
 }
 
-static ins_track_t* create(ins_track_kind_t kind, const ins_track_site_t* site, const ins_track_speed_t* speed,
-                           const ins_motion_t* attitude, const ins_why_t* why)
+ins_track_t* ins_track_create_at(ins_track_kind_t kind, const ins_track_site_t* site, const ins_why_t* why)
 {
-    if (!check_site(site, why) || !check_speed(speed, why))
+    if (!check_site(site, why))
     {
         return NULL;
     }
@@ -52,14 +51,24 @@ static ins_track_t* create(ins_track_kind_t kind, const ins_track_site_t* site, 
     const double llh[3] = {site->latitude, site->longitude, site->height};
     self->kind = kind;
     self->site = *site;
-    self->speed = *speed;
-    self->attitude = attitude;
     ins_place_of_llh(llh, &self->place);
     ins_place_rotation(&self->place, self->q_en);
     if (site->rotating)
     {
         const double w_ie_e[3] = {0.0, 0.0, INS_PLACE_EARTH_RATE};
         ins_place_into_n(&self->place, w_ie_e, self->w_ie_n);
+    }
+    return self;
+}
+
+static ins_track_t* create(ins_track_kind_t kind, const ins_track_site_t* site, const ins_track_speed_t* speed,
+                           const ins_motion_t* attitude, const ins_why_t* why)
+{
+    ins_track_t* const self = check_speed(speed, why) ? ins_track_create_at(kind, site, why) : NULL;
+    if (self != NULL)
+    {
+        self->speed = *speed;
+        self->attitude = attitude;
     }
     return self;
 }
@@ -207,7 +216,9 @@ void ins_track_destroy(ins_track_t* self)
 {
     if (self != NULL)
     {
-        ins_spline_free(&self->table); // no rows, nothing to free, for the other kinds
+        ins_spline_free(&self->table); // nothing to free for the other kinds, and below
+        ins_dense_free(&self->body.motion);
+        free(self->body.happening);
     }
     free(self);
 }

@@ -3,7 +3,8 @@
 /// SPDX-License-Identifier: MIT
 #ifndef INS_TRUTH_TRACK_INTERNAL_H_INCLUDED
 #define INS_TRUTH_TRACK_INTERNAL_H_INCLUDED
-#include "ins_truth/track.h"
+#include "dense_internal.h"
+#include "ins_truth/body.h"
 #include "place_internal.h"
 #include "spline_internal.h"
 
@@ -14,8 +15,18 @@ typedef enum
     INS_TRACK_LINE, ///< also a still one, whose u stays 0
     INS_TRACK_CIRCLE,
     INS_TRACK_EIGHT,
-    INS_TRACK_WAYPOINTS ///< u is time
+    INS_TRACK_WAYPOINTS, ///< u is time
+    INS_TRACK_BODY
 } ins_track_kind_t;
+
+/// Integrated from rates and specific force.
+typedef struct ins_track_body_t
+{
+    ins_body_input_t input;
+    ins_dense_t motion;
+    size_t happenings;
+    ins_body_happening_t* happening;
+} ins_track_body_t;
 
 /// Axes of a plane curve and its sizes. u is way for a line and a circle, an angle for an eight.
 typedef struct ins_track_curve_t
@@ -37,6 +48,7 @@ struct ins_track_t
     ins_track_speed_t speed;
     ins_track_curve_t curve;
     ins_spline_t table;
+    ins_track_body_t body;
 };
 
 /// A place on the curve with its derivatives by time, and the tangent that gives the direction at a standstill too.
@@ -48,6 +60,12 @@ typedef struct ins_track_path_t
     double speed;            ///< du/dt
 } ins_track_path_t;
 
+/// A track at its site with nothing else set; NULL when the site is refused.
+ins_track_t* ins_track_create_at(ins_track_kind_t kind, const ins_track_site_t* site, const ins_why_t* why);
+/// Gravity at p_n [m/s^2].
+void ins_track_gravity(const ins_track_t* self, const double p_n[3], double g_n[3]);
+/// p_n, v_n, q_nb of a solution's numbers; the quaternion normalised, the rest 0.
+void ins_track_state_of(const double y[INS_DENSE_SIZE], ins_track_state_t* out);
 void ins_track_path(const ins_track_t* self, double t, ins_track_path_t* out);
 
 /// The first instant after t where some derivative of rate or specific force jumps.

@@ -103,16 +103,16 @@ void ins_track_path(const ins_track_t* self, double t, ins_track_path_t* out)
     out->speed = u[1];
 }
 
-double ins_track_next_break(const ins_track_t* self, double t)
+/// Where the spline or the speed of a path breaks.
+static double path_break(const ins_track_t* self, double t)
 {
     const ins_track_speed_t* const s = &self->speed;
     const double brake_s = s->start_s + s->accelerate_s + s->cruise_s;
     const double stop[4] = {s->start_s, s->start_s + s->accelerate_s, brake_s, brake_s + s->brake_s};
-    double next = self->attitude != NULL ? ins_motion_next_break(self->attitude, t) : (double)INFINITY;
+    double next = (double)INFINITY;
     if (self->kind == INS_TRACK_WAYPOINTS)
     {
-        const double knot = ins_spline_next_knot(&self->table, t);
-        return knot < next ? knot : next;
+        return ins_spline_next_knot(&self->table, t);
     }
     for (int i = 0; i < 4; i++)
     {
@@ -121,9 +121,26 @@ double ins_track_next_break(const ins_track_t* self, double t)
     return next;
 }
 
+double ins_track_next_break(const ins_track_t* self, double t)
+{
+    const ins_body_input_t* const input = &self->body.input;
+    if (self->kind == INS_TRACK_BODY)
+    {
+        return input->next_break != NULL ? input->next_break(input->ctx, t) : (double)INFINITY;
+    }
+    const double path = path_break(self, t);
+    const double attitude = self->attitude != NULL ? ins_motion_next_break(self->attitude, t) : (double)INFINITY;
+    return path < attitude ? path : attitude;
+}
+
 double ins_track_panel(const ins_track_t* self)
 {
-    double u_rate = 0.0; // [rad/s]
+    double u_rate = 0.0;              // [rad/s]
+    if (self->kind == INS_TRACK_BODY) // the integrator takes some 30 steps a period
+    {
+        const ins_dense_t* const motion = &self->body.motion;
+        return 15.0 * (motion->end - motion->start) / (double)motion->steps;
+    }
     u_rate = self->kind == INS_TRACK_CIRCLE ? self->speed.speed / fabs(self->curve.radius) : u_rate;
     u_rate = self->kind == INS_TRACK_EIGHT ? 2.0 * self->speed.speed * self->curve.u_per_way : u_rate;
     const double path_s = u_rate > 0.0 ? INS_TRUTH_PI / u_rate : (double)INFINITY;
