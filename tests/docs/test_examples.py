@@ -26,8 +26,12 @@ OWN_NAMES = {
     "static ins_accelfit_motion_t motion[N];",
     "ins/batch.h": "ins_real q_nb0[4 * N] = {0}, dtheta_b[3 * N] = {0};",
     "ins/gps_axis.h": "ins_real var[4] = {0};",
+    "ins/gnss.h": "static ins_gnss_fix_t fix; static int64_t tow_ms, imu_t_ns; use(&fix);",
+    "ins/gps_ins.h": "static ins_gps_ins_config_t cfg; static ins_gps_ins_start_t start; static ins_gnss_fix_t fix;"
+    "static int64_t t_ns; static int new_fix;",
     "ins/kf15.h": "static ins_strapdown_t s; static ins_real sigma[15]; static ins_kf15_sensors_t sensors;",
     "ins/q31.h": "int32_t q_nb0[4] = {0}, dtheta_b[3] = {0};",
+    "ins/still.h": "static ins_still_config_t config;",
 }
 
 
@@ -70,7 +74,8 @@ HEADER_EXAMPLES = [
 def only_double(example: str) -> bool:
     """The host's and the emulator's libraries have one number type."""
     return (
-        re.search(r"\b(ins_(nav(?!_block)|dds|motion|gyro|accels|track|gps(?!_axis))|emu|acq_board)_\w+", example) is not None
+        re.search(r"\b(ins_(nav(?!_block)|dds|motion|gyro|accels|track|gps(?!_axis|_ins))|emu|acq_board)_\w+", example)
+        is not None
     )
 
 

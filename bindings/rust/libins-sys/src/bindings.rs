@@ -14,13 +14,14 @@ pub const INS_GIMU_T2_LEN: u32 = 23;
 pub const INS_GIMU_LOOK: u32 = 25;
 pub const INS_GIMU_RATE_HZ: u32 = 6;
 pub const INS_GPS_DR_HEADINGS: u32 = 8;
+pub const INS_KF15_N: u32 = 15;
+pub const INS_KF15_ROW: u32 = 16;
+pub const INS_GPS_INS_PAST: u32 = 8;
 pub const INS_HS_BLOCK_MAX: u32 = 32;
 pub const INS_HS_REQUEST: u32 = 170;
 pub const INS_HS_READY: u32 = 187;
 pub const INS_HS_ACCEPT: u32 = 0;
 pub const INS_HS_RESEND: u32 = 255;
-pub const INS_KF15_N: u32 = 15;
-pub const INS_KF15_ROW: u32 = 16;
 pub const INS_LINK_REQUEST: u32 = 85;
 pub const INS_LINK_READY: u32 = 68;
 pub const INS_LINK_PROBE_EVERY: u32 = 16;
@@ -670,6 +671,127 @@ extern "C" {
     #[doc = "\\param[out] dtheta_b  [3] rad. \\param[out] dv_b  [3] m/s."]
     pub fn ins_gimu_increments(self_: *const ins_gimu_scale_t, raw: *const u16, dt: ins_real, dtheta_b: *mut ins_real, dv_b: *mut ins_real);
 }
+#[doc = "What an IMU gives for one interval, each integrated in the moving body frame."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_increment_t {
+    #[doc = "of the angular rate w_ib_b [rad]"]
+    pub theta_b: [ins_real; 3usize],
+    #[doc = "of the specific force f_b [m/s]"]
+    pub v_b: [ins_real; 3usize],
+}
+#[doc = "Owned by the caller. Start with ins_sculling_init()."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_sculling_t {
+    #[doc = "attitude at the end of the last interval"]
+    pub q_nb: [ins_real; 4usize],
+    #[doc = "previous increments, newest first"]
+    pub prev: [ins_increment_t; 3usize],
+    #[doc = "as in ins_attitude_t"]
+    pub form: uint_least8_t,
+    #[doc = "previous increments held"]
+    pub count: uint_least8_t,
+}
+extern "C" {
+    #[doc = "\\return as ins_attitude_init."]
+    pub fn ins_sculling_init(self_: *mut ins_sculling_t, form: ::core::ffi::c_int, q_nb: *const ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Next interval: attitude and velocity increment. Angles as in ins_attitude_step."]
+    #[doc = "\\param[out] dv_b  [3] specific force integrated in b as it stood at the start of the interval [m/s]; not in the increment."]
+    #[doc = "\\return INS_OK; INS_S_START; INS_E_RANGE for NaN, infinity or |component of theta_b| > pi; nothing is changed then."]
+    pub fn ins_sculling_step(self_: *mut ins_sculling_t, increment: *const ins_increment_t, dv_b: *mut ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "The correction alone, for any form: as ins_coning_phi. \\param[in] increments  [ins_coning_samples(form)], oldest first."]
+    #[doc = "\\return INS_OK; INS_E_RANGE if there is no such form. NaN in gives NaN out."]
+    pub fn ins_sculling_dv(form: ::core::ffi::c_int, increments: *const ins_increment_t, dv_b: *mut ins_real) -> ins_status_t;
+}
+#[doc = "Latitude, longitude [rad] and height above WGS-84 [m]: the sum of both."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_position_t {
+    pub anchor: [ins_real; 3usize],
+    pub offset: [ins_real; 3usize],
+}
+#[doc = "Owned by the caller. Start with ins_strapdown_init(); read sculling.q_nb, v_n and position."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_strapdown_t {
+    #[doc = "its q_nb is the attitude"]
+    pub sculling: ins_sculling_t,
+    #[doc = "velocity over ground [m/s]"]
+    pub v_n: [ins_real; 3usize],
+    pub position: ins_position_t,
+    #[doc = "of the anchor"]
+    pub sin_lat: ins_real,
+    #[doc = "of the anchor"]
+    pub cos_lat: ins_real,
+    #[doc = "[s]"]
+    pub half_period: ins_real,
+    #[doc = "half of the last step's change of velocity [m/s]"]
+    pub half_dv: [ins_real; 3usize],
+    #[doc = "and of latitude [rad]"]
+    pub half_dlat: ins_real,
+}
+extern "C" {
+    #[doc = "\\return INS_OK; INS_E_RANGE for what ins_attitude_init refuses, NaN, a period not in (0, INS_STRAPDOWN_PERIOD_MAX], a speed above INS_STRAPDOWN_SPEED_MAX, |height| > 1e6 m,"]
+    #[doc = "        |longitude| > 2 pi, an offset of more than 1e-3 rad, or a latitude too near to a pole."]
+    pub fn ins_strapdown_init(
+        self_: *mut ins_strapdown_t,
+        form: ::core::ffi::c_int,
+        period_s: ins_real,
+        q_nb: *const ins_real,
+        v_n: *const ins_real,
+        position: *const ins_position_t,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\return INS_OK; INS_S_START; INS_E_RANGE as ins_sculling_step, or if the step would lead too near to a pole; nothing is changed"]
+    #[doc = "        then."]
+    pub fn ins_strapdown_step(self_: *mut ins_strapdown_t, increment: *const ins_increment_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Another point of the body: an antenna, a wheel."]
+    #[doc = "\\param[in] l_b  [3] from the IMU to the point [m]. \\param[in] w_ib_b  [3] angular rate now, e.g. increment / period [rad/s]."]
+    #[doc = "\\param[out] v_n  [3] its velocity over ground [m/s]. \\param[out] position  of the point."]
+    pub fn ins_strapdown_point(
+        self_: *const ins_strapdown_t,
+        l_b: *const ins_real,
+        w_ib_b: *const ins_real,
+        v_n: *mut ins_real,
+        position: *mut ins_position_t,
+    );
+}
+extern "C" {
+    #[doc = "From a to b along the meridian and the parallel through a, and down [m]. Offsets and anchors are subtracted one from the other"]
+    #[doc = "first, so nothing is lost in float."]
+    pub fn ins_position_difference(a: *const ins_position_t, b: *const ins_position_t, ned: *mut ins_real);
+}
+#[doc = "What a receiver says of its antenna. A standard deviation of 0: this figure is not known, and not used."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gnss_fix_t {
+    #[doc = "of which it is, in the time base of the IMU"]
+    pub t_ns: i64,
+    pub position: ins_position_t,
+    #[doc = "over ground [m/s]"]
+    pub v_n: [ins_real; 3usize],
+    #[doc = "north, east, down [m]"]
+    pub sigma_p: [ins_real; 3usize],
+    #[doc = "[m/s]"]
+    pub sigma_v: [ins_real; 3usize],
+}
+extern "C" {
+    #[doc = "t_ns plus the multiple of period_ns that brings it nearest to near_ns. \\param[in] period_ns  > 0."]
+    pub fn ins_gnss_time_near(t_ns: i64, period_ns: i64, near_ns: i64) -> i64;
+}
+extern "C" {
+    #[doc = "Position from integers as receivers send them, exact to 1e-9 deg in float too: the anchor is a coarse part, the offset the rest."]
+    #[doc = "\\param[in] lat_e7  latitude [1e-7 deg]. \\param[in] lon_e7  longitude. \\param[in] height_mm  above the ellipsoid."]
+    pub fn ins_gnss_position(lat_e7: i32, lon_e7: i32, height_mm: i32, position: *mut ins_position_t);
+}
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_gps_axis_config_t {
@@ -1001,146 +1123,6 @@ extern "C" {
     #[doc = "\\param[out] x  [4] east, north, their velocities. \\param[out] var  [4] variances. \\return INS_E_STATE: no fix yet."]
     pub fn ins_gps_dr_paper_state(self_: *const ins_gps_dr_paper_t, x: *mut ins_real, var: *mut ins_real) -> ins_status_t;
 }
-#[doc = "Both sides take one; a member that the other side alone uses may be 0. reply_timeout must be longer than octet_timeout and one"]
-#[doc = "exchange of octets, so that the host is back in idle when the board asks again."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_hs_config_t {
-    #[doc = "1..INS_HS_BLOCK_MAX octets; at least 4 with seq"]
-    pub block_len: uint_least8_t,
-    #[doc = "1: sequence number in the spare high nibbles of X and Y"]
-    pub seq: uint_least8_t,
-    #[doc = "board: frames and requests sent again for one block; host: FFs, less one, for one request"]
-    pub retries: uint_least8_t,
-    #[doc = "board: wait for BB, 00 or FF, from when ins_hs_board_tx() gave the octet before"]
-    pub reply_timeout: u16,
-    #[doc = "host: longest silence inside a block"]
-    pub octet_timeout: u16,
-}
-#[doc = "Board side (A). Start with ins_hs_board_init(). Members are private, the counters readable."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_hs_board_t {
-    pub cfg: ins_hs_config_t,
-    pub state: uint_least8_t,
-    pub tries: uint_least8_t,
-    #[doc = "next octet of the frame to transmit"]
-    pub next: uint_least8_t,
-    pub sum: uint_least8_t,
-    pub since: u16,
-    pub block: [ins_octet_t; 32usize],
-    #[doc = "blocks acknowledged with 00"]
-    pub sent: u16,
-    #[doc = "frames or requests sent again, after FF or a time-out"]
-    pub resent: u16,
-    #[doc = "blocks dropped after the last retry"]
-    pub given_up: u16,
-}
-extern "C" {
-    #[doc = "Nothing on its way, counters 0. \\return INS_OK; INS_E_RANGE for a cfg that ins_hs_config_t does not allow."]
-    pub fn ins_hs_board_init(self_: *mut ins_hs_board_t, cfg: *const ins_hs_config_t) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "Offer a block for transmission, with its sequence number (ignored with cfg.seq = 0)."]
-    #[doc = "\\return INS_OK; INS_E_STATE while an earlier block is on its way (nothing changed; see ins_hs_board_busy)."]
-    pub fn ins_hs_board_offer(self_: *mut ins_hs_board_t, block: *const ins_octet_t, seq: uint_least8_t, now: u16) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "1 while a block is on its way."]
-    pub fn ins_hs_board_busy(self_: *const ins_hs_board_t) -> uint_least8_t;
-}
-extern "C" {
-    #[doc = "Next octet to put on the line, or -1 for none. Call whenever the transmitter is free."]
-    pub fn ins_hs_board_tx(self_: *mut ins_hs_board_t, now: u16) -> i16;
-}
-extern "C" {
-    #[doc = "An octet came from the host."]
-    pub fn ins_hs_board_rx(self_: *mut ins_hs_board_t, octet: ins_octet_t, now: u16);
-}
-extern "C" {
-    #[doc = "Time passes: call at least every reply_timeout / 2 or so; expires waits."]
-    pub fn ins_hs_board_tick(self_: *mut ins_hs_board_t, now: u16);
-}
-pub const INS_HS_NOTHING: _bindgen_ty_9 = 0;
-#[doc = "a new block is in self->block (sequence nibbles removed), self->seq and self->gap are set"]
-pub const INS_HS_BLOCK: _bindgen_ty_9 = 1;
-#[doc = "a block already delivered came again (cfg.seq only); it was acknowledged"]
-pub const INS_HS_DUPLICATE: _bindgen_ty_9 = 2;
-#[doc = "the sum did not agree; FF was answered, or the tries are used up"]
-pub const INS_HS_CORRUPT: _bindgen_ty_9 = 3;
-#[doc = "What an octet led to, on the host."]
-pub type _bindgen_ty_9 = ::core::ffi::c_uint;
-#[doc = "Host side (B). Start with ins_hs_host_init(). Members are private, block, seq, gap and the counters readable."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_hs_host_t {
-    pub cfg: ins_hs_config_t,
-    pub state: uint_least8_t,
-    pub tries: uint_least8_t,
-    pub count: uint_least8_t,
-    pub sum: uint_least8_t,
-    pub have_seq: uint_least8_t,
-    #[doc = "sequence number of the last block delivered (0 with cfg.seq = 0)"]
-    pub seq: uint_least8_t,
-    #[doc = "blocks missing between the last two delivered, modulo 256 (0 with cfg.seq = 0)"]
-    pub gap: uint_least8_t,
-    pub since: u16,
-    pub block: [ins_octet_t; 32usize],
-    #[doc = "new blocks delivered"]
-    pub accepted: u32,
-    #[doc = "resent blocks recognised"]
-    pub duplicates: u32,
-    #[doc = "sums that did not agree"]
-    pub corrupt: u32,
-    #[doc = "blocks that stopped half-way"]
-    pub timeouts: u32,
-    #[doc = "octets that fit nowhere"]
-    pub stray: u32,
-}
-extern "C" {
-    #[doc = "In idle, counters 0. \\return as ins_hs_board_init()."]
-    pub fn ins_hs_host_init(self_: *mut ins_hs_host_t, cfg: *const ins_hs_config_t) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "An octet came from the board. \\param[out] reply octet to send back (BB, 00, FF), or -1. \\return one of INS_HS_*."]
-    pub fn ins_hs_host_rx(self_: *mut ins_hs_host_t, octet: ins_octet_t, now: u16, reply: *mut i16) -> ::core::ffi::c_int;
-}
-extern "C" {
-    #[doc = "Time passes without an octet: call it whenever the line has been silent for more than octet_timeout, else a block that stopped"]
-    #[doc = "half-way is found only when the next one fails its sum. Never call it between octets that are already waiting to be read."]
-    pub fn ins_hs_host_tick(self_: *mut ins_hs_host_t, now: u16);
-}
-extern "C" {
-    #[doc = "The paper's block of three 12-bit codes, XH XL YH YL ZH ZL. A code's bits 15..12 are not sent (ins_hs_board_offer puts the"]
-    #[doc = "sequence number there)."]
-    #[doc = "\\param[in] codes  [3] \\param[out] block  [6]"]
-    pub fn ins_hs_block_put(codes: *const u16, block: *mut ins_octet_t);
-}
-extern "C" {
-    #[doc = "\\param[in] block  [6] \\param[out] codes  [3] 0..4095"]
-    pub fn ins_hs_block_codes(block: *const ins_octet_t, codes: *mut u16);
-}
-#[doc = "Start with ins_hist2_init()."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_hist2_t {
-    #[doc = "scalar first; v_n = q v_b q*"]
-    pub q_nb: [ins_real; 4usize],
-    #[doc = "previous increments, newest first [rad]"]
-    pub prev: [[ins_real; 3usize]; 2usize],
-    #[doc = "previous increments held"]
-    pub count: uint_least8_t,
-}
-extern "C" {
-    #[doc = "\\return INS_OK; INS_E_RANGE for NaN, or a norm that is not within 1e-3 of 1 (it is normalised), and then self is unchanged."]
-    pub fn ins_hist2_init(self_: *mut ins_hist2_t, q_nb: *const ins_real) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "Turn by one increment."]
-    #[doc = "\\return INS_OK; INS_S_START for the first two; INS_E_RANGE for NaN or one that turns by more than 0.5, its coning term"]
-    #[doc = "included, and then self is unchanged."]
-    pub fn ins_hist2_step(self_: *mut ins_hist2_t, dtheta_b: *const ins_real) -> ins_status_t;
-}
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_markov_t {
@@ -1154,116 +1136,18 @@ extern "C" {
     #[doc = "\\return INS_E_RANGE, and self unchanged, if one is not, or not a number."]
     pub fn ins_markov_init(self_: *mut ins_markov_t, dt: ins_real, tau: ins_real, sigma: ins_real) -> ins_status_t;
 }
-#[doc = "What an IMU gives for one interval, each integrated in the moving body frame."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_increment_t {
-    #[doc = "of the angular rate w_ib_b [rad]"]
-    pub theta_b: [ins_real; 3usize],
-    #[doc = "of the specific force f_b [m/s]"]
-    pub v_b: [ins_real; 3usize],
-}
-#[doc = "Owned by the caller. Start with ins_sculling_init()."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_sculling_t {
-    #[doc = "attitude at the end of the last interval"]
-    pub q_nb: [ins_real; 4usize],
-    #[doc = "previous increments, newest first"]
-    pub prev: [ins_increment_t; 3usize],
-    #[doc = "as in ins_attitude_t"]
-    pub form: uint_least8_t,
-    #[doc = "previous increments held"]
-    pub count: uint_least8_t,
-}
-extern "C" {
-    #[doc = "\\return as ins_attitude_init."]
-    pub fn ins_sculling_init(self_: *mut ins_sculling_t, form: ::core::ffi::c_int, q_nb: *const ins_real) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "Next interval: attitude and velocity increment. Angles as in ins_attitude_step."]
-    #[doc = "\\param[out] dv_b  [3] specific force integrated in b as it stood at the start of the interval [m/s]; not in the increment."]
-    #[doc = "\\return INS_OK; INS_S_START; INS_E_RANGE for NaN, infinity or |component of theta_b| > pi; nothing is changed then."]
-    pub fn ins_sculling_step(self_: *mut ins_sculling_t, increment: *const ins_increment_t, dv_b: *mut ins_real) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "The correction alone, for any form: as ins_coning_phi. \\param[in] increments  [ins_coning_samples(form)], oldest first."]
-    #[doc = "\\return INS_OK; INS_E_RANGE if there is no such form. NaN in gives NaN out."]
-    pub fn ins_sculling_dv(form: ::core::ffi::c_int, increments: *const ins_increment_t, dv_b: *mut ins_real) -> ins_status_t;
-}
-#[doc = "Latitude, longitude [rad] and height above WGS-84 [m]: the sum of both."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_position_t {
-    pub anchor: [ins_real; 3usize],
-    pub offset: [ins_real; 3usize],
-}
-#[doc = "Owned by the caller. Start with ins_strapdown_init(); read sculling.q_nb, v_n and position."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_strapdown_t {
-    #[doc = "its q_nb is the attitude"]
-    pub sculling: ins_sculling_t,
-    #[doc = "velocity over ground [m/s]"]
-    pub v_n: [ins_real; 3usize],
-    pub position: ins_position_t,
-    #[doc = "of the anchor"]
-    pub sin_lat: ins_real,
-    #[doc = "of the anchor"]
-    pub cos_lat: ins_real,
-    #[doc = "[s]"]
-    pub half_period: ins_real,
-    #[doc = "half of the last step's change of velocity [m/s]"]
-    pub half_dv: [ins_real; 3usize],
-    #[doc = "and of latitude [rad]"]
-    pub half_dlat: ins_real,
-}
-extern "C" {
-    #[doc = "\\return INS_OK; INS_E_RANGE for what ins_attitude_init refuses, NaN, a period not in (0, INS_STRAPDOWN_PERIOD_MAX], a speed above INS_STRAPDOWN_SPEED_MAX, |height| > 1e6 m,"]
-    #[doc = "        |longitude| > 2 pi, an offset of more than 1e-3 rad, or a latitude too near to a pole."]
-    pub fn ins_strapdown_init(
-        self_: *mut ins_strapdown_t,
-        form: ::core::ffi::c_int,
-        period_s: ins_real,
-        q_nb: *const ins_real,
-        v_n: *const ins_real,
-        position: *const ins_position_t,
-    ) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "\\return INS_OK; INS_S_START; INS_E_RANGE as ins_sculling_step, or if the step would lead too near to a pole; nothing is changed"]
-    #[doc = "        then."]
-    pub fn ins_strapdown_step(self_: *mut ins_strapdown_t, increment: *const ins_increment_t) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "Another point of the body: an antenna, a wheel."]
-    #[doc = "\\param[in] l_b  [3] from the IMU to the point [m]. \\param[in] w_ib_b  [3] angular rate now, e.g. increment / period [rad/s]."]
-    #[doc = "\\param[out] v_n  [3] its velocity over ground [m/s]. \\param[out] position  of the point."]
-    pub fn ins_strapdown_point(
-        self_: *const ins_strapdown_t,
-        l_b: *const ins_real,
-        w_ib_b: *const ins_real,
-        v_n: *mut ins_real,
-        position: *mut ins_position_t,
-    );
-}
-extern "C" {
-    #[doc = "From a to b along the meridian and the parallel through a, and down [m]. Offsets and anchors are subtracted one from the other"]
-    #[doc = "first, so nothing is lost in float."]
-    pub fn ins_position_difference(a: *const ins_position_t, b: *const ins_position_t, ned: *mut ins_real);
-}
 #[doc = "attitude, in n [rad]"]
-pub const INS_KF15_PHI: _bindgen_ty_11 = 0;
+pub const INS_KF15_PHI: _bindgen_ty_9 = 0;
 #[doc = "velocity, in n [m/s]"]
-pub const INS_KF15_V: _bindgen_ty_11 = 3;
+pub const INS_KF15_V: _bindgen_ty_9 = 3;
 #[doc = "position, north, east, down [m]"]
-pub const INS_KF15_P: _bindgen_ty_11 = 6;
+pub const INS_KF15_P: _bindgen_ty_9 = 6;
 #[doc = "gyro bias, in b [rad/s]"]
-pub const INS_KF15_BG: _bindgen_ty_11 = 9;
+pub const INS_KF15_BG: _bindgen_ty_9 = 9;
 #[doc = "accelerometer bias, in b [m/s^2]"]
-pub const INS_KF15_BA: _bindgen_ty_11 = 12;
+pub const INS_KF15_BA: _bindgen_ty_9 = 12;
 #[doc = "Where three errors begin."]
-pub type _bindgen_ty_11 = ::core::ffi::c_uint;
+pub type _bindgen_ty_9 = ::core::ffi::c_uint;
 #[doc = "Owned by the caller; readable. Start with ins_kf15_init()."]
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -1353,6 +1237,408 @@ extern "C" {
 extern "C" {
     #[doc = "The same for h = 1 at index, 0 elsewhere. \\return also INS_E_RANGE for an index above 14."]
     pub fn ins_kf15_update_state(self_: *mut ins_kf15_t, index: ::core::ffi::c_uint, z: *mut ins_innovation_t) -> ins_status_t;
+}
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_still_config_t {
+    #[doc = "of a block; 0: never at rest"]
+    pub samples: u16,
+    #[doc = "largest standard deviation of an axis within a block [rad/s]"]
+    pub rate_sigma: ins_real,
+    #[doc = "[m/s^2]"]
+    pub force_sigma: ins_real,
+    #[doc = "largest mean of an axis [rad/s]"]
+    pub rate_mean: ins_real,
+}
+#[doc = "Owned by the caller. Start with ins_still_init(); rate and force are readable."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_still_t {
+    pub cfg: ins_still_config_t,
+    pub count: u16,
+    #[doc = "of the block: sums are taken from it, so that they do not cancel"]
+    pub first: [ins_real; 6usize],
+    pub sum: [ins_real; 6usize],
+    pub squares: [ins_real; 6usize],
+    #[doc = "means of the last block of rest [rad/s], [m/s^2]"]
+    pub rate: [ins_real; 3usize],
+    #[doc = "means of the last block of rest [rad/s], [m/s^2]"]
+    pub force: [ins_real; 3usize],
+}
+extern "C" {
+    #[doc = "\\return INS_E_RANGE, self unchanged: samples 1, or with samples a bound that is not positive."]
+    pub fn ins_still_init(self_: *mut ins_still_t, cfg: *const ins_still_config_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\param[in] increment  finite, of the last dt > 0 [s]. \\return 1 at the end of a block of rest, else 0."]
+    pub fn ins_still_add(self_: *mut ins_still_t, dt: ins_real, increment: *const ins_increment_t) -> ::core::ffi::c_int;
+}
+extern "C" {
+    #[doc = "After lost samples: a new block."]
+    pub fn ins_still_restart(self_: *mut ins_still_t);
+}
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_ins_config_t {
+    #[doc = "random walks and Gauss-Markov biases of the IMU"]
+    pub sensors: ins_kf15_sensors_t,
+    #[doc = "rms of a motion that a gap or a dead axis hides [rad/s], [m/s^2]"]
+    pub unseen_rate: ins_real,
+    #[doc = "rms of a motion that a gap or a dead axis hides [rad/s], [m/s^2]"]
+    pub unseen_accel: ins_real,
+    #[doc = "of the IMU's ranges; beyond: refused [rad/s], [m/s^2]"]
+    pub rate_max: ins_real,
+    #[doc = "of the IMU's ranges; beyond: refused [rad/s], [m/s^2]"]
+    pub force_max: ins_real,
+    #[doc = "longest time without IMU that is bridged [s]"]
+    pub gap_max: ins_real,
+    #[doc = "samples of one value that make an axis dead; 0: not looked at"]
+    pub stuck: u16,
+    #[doc = "IMU samples to a step of the covariance, at least 1"]
+    pub decimate: u16,
+    #[doc = "from the IMU [m]"]
+    pub antenna_b: [ins_real; 3usize],
+    #[doc = "added to the time of a fix, within +-INS_GPS_INS_DELAY_MAX [s]"]
+    pub gnss_late: ins_real,
+    #[doc = "of the joint NIS of 3; 0: none"]
+    pub gate_position: ins_real,
+    #[doc = "of the joint NIS of 3; 0: none"]
+    pub gate_velocity: ins_real,
+    #[doc = "of one scalar; 0: none"]
+    pub gate: ins_real,
+    #[doc = "fixes refused in a row after which the filter doubts itself; 0: never"]
+    pub refused_max: u16,
+    #[doc = "from the IMU to the point that only rolls forward, the rear axle [m]"]
+    pub wheel_b: [ins_real; 3usize],
+    #[doc = "standard deviations of no slip, of rest [m/s], of no turning [rad/s]"]
+    pub nhc: ins_real,
+    #[doc = "standard deviations of no slip, of rest [m/s], of no turning [rad/s]"]
+    pub zupt: ins_real,
+    #[doc = "standard deviations of no slip, of rest [m/s], of no turning [rad/s]"]
+    pub zaru: ins_real,
+    #[doc = "detector of rest: zupt and zaru by themselves"]
+    pub still: ins_still_config_t,
+}
+#[doc = "Where it starts. sigma: as ins/kf15.h orders the states."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_ins_start_t {
+    pub t_ns: i64,
+    pub q_nb: [ins_real; 4usize],
+    pub v_n: [ins_real; 3usize],
+    #[doc = "of the IMU"]
+    pub position: ins_position_t,
+    pub gyro_bias: [ins_real; 3usize],
+    pub accel_bias: [ins_real; 3usize],
+    pub sigma: [ins_real; 15usize],
+}
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_ins_count_t {
+    pub steps: u32,
+    pub imu_refused: u32,
+    pub imu_time: u32,
+    pub imu_clock: u32,
+    pub imu_gaps: u32,
+    pub imu_stuck: u32,
+    pub fixes: u32,
+    pub fix_refused: u32,
+    pub fix_time: u32,
+    pub fix_position: u32,
+    pub fix_velocity: u32,
+    pub fix_doubts: u32,
+    pub rests: u32,
+    pub rest_refused: u32,
+    pub aid_refused: u32,
+}
+#[doc = "The answer with its covariance: blocks of P, row-major, north, east, down."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_ins_state_t {
+    pub t_ns: i64,
+    pub q_nb: [ins_real; 4usize],
+    pub v_n: [ins_real; 3usize],
+    pub position: ins_position_t,
+    pub gyro_bias: [ins_real; 3usize],
+    pub accel_bias: [ins_real; 3usize],
+    #[doc = "attitude [rad^2], velocity [m^2/s^2], position [m^2]"]
+    pub P_phi: [ins_real; 9usize],
+    #[doc = "attitude [rad^2], velocity [m^2/s^2], position [m^2]"]
+    pub P_v: [ins_real; 9usize],
+    #[doc = "attitude [rad^2], velocity [m^2/s^2], position [m^2]"]
+    pub P_p: [ins_real; 9usize],
+    pub sigma: [ins_real; 15usize],
+}
+#[doc = "Where the antenna was, for fixes that come late."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_ins_past_t {
+    pub t_ns: i64,
+    #[doc = "from a common point [m]"]
+    pub u_n: [ins_real; 3usize],
+    #[doc = "[m/s]"]
+    pub v_n: [ins_real; 3usize],
+}
+#[doc = "The last fix beside the filter: north, east, down of position, then of velocity."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_ins_check_t {
+    #[doc = "fix - filter [m], [m/s]"]
+    pub innovation: [ins_real; 6usize],
+    #[doc = "of each alone, given those before it; 0: not used"]
+    pub nis: [ins_real; 6usize],
+    #[doc = "joint, of the components known"]
+    pub nis_position: ins_real,
+    #[doc = "joint, of the components known"]
+    pub nis_velocity: ins_real,
+}
+#[doc = "Owned by the caller. Start with ins_gps_ins_init(); read nav (attitude, velocity, position), biases, kf, check, count, stuck."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_gps_ins_t {
+    pub cfg: ins_gps_ins_config_t,
+    pub nav: ins_strapdown_t,
+    pub gyro_bias: [ins_real; 3usize],
+    pub accel_bias: [ins_real; 3usize],
+    pub kf: ins_kf15_t,
+    #[doc = "of the covariance's last step"]
+    pub model: ins_kf15_model_t,
+    pub check: ins_gps_ins_check_t,
+    pub count: ins_gps_ins_count_t,
+    pub still: ins_still_t,
+    #[doc = "bit i: axis i of the gyros, i - 3 of the accelerometers, is dead"]
+    pub stuck: uint_least8_t,
+    #[doc = "1 after a gap longer than gap_max: start again"]
+    pub lost: uint_least8_t,
+    #[doc = "of the last sample used"]
+    pub t_ns: i64,
+    #[doc = "of the last sample [s]"]
+    pub dt: ins_real,
+    #[doc = "its rate, biases taken off [rad/s]"]
+    pub w_ib_b: [ins_real; 3usize],
+    #[doc = "rates and specific forces as they came"]
+    pub value: [ins_real; 6usize],
+    #[doc = "samples in a row without a change"]
+    pub same: [u16; 6usize],
+    #[doc = "samples since the covariance's last step"]
+    pub pending: u16,
+    #[doc = "[s]"]
+    pub pending_dt: ins_real,
+    #[doc = "specific force integrated over them [m/s]"]
+    pub pending_v: [ins_real; 3usize],
+    #[doc = "of the last sample that did not follow in time"]
+    pub odd_t_ns: i64,
+    #[doc = "of those, in a row"]
+    pub odd: u16,
+    #[doc = "fixes, in a row"]
+    pub refused: u16,
+    #[doc = "from the common point of past [m]"]
+    pub way_n: [ins_real; 3usize],
+    pub past: [ins_gps_ins_past_t; 8usize],
+    pub newest: uint_least8_t,
+    pub held: uint_least8_t,
+    #[doc = "1: model holds cfg.sensors alone"]
+    pub plain: uint_least8_t,
+}
+impl Default for ins_gps_ins_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
+extern "C" {
+    #[doc = "A low-cost MEMS IMU (0.3 deg/sqrt(h), 0.1 m/s/sqrt(h), 0.1 deg/s and 50 mg/1000 s), an antenna at the IMU, gates of 99.9 %,"]
+    #[doc = "no detector of rest."]
+    pub fn ins_gps_ins_config(cfg: *mut ins_gps_ins_config_t);
+}
+extern "C" {
+    #[doc = "Begins where start says."]
+    #[doc = "\\return INS_E_RANGE, self unchanged: a figure is out of its range, or sigma of an angle above INS_GPS_INS_TILT_MAX: that far"]
+    #[doc = "off an error filter is not linear, and would be sure of a wrong heading; ins/gps_ins_align.h finds it."]
+    pub fn ins_gps_ins_init(self_: *mut ins_gps_ins_t, cfg: *const ins_gps_ins_config_t, start: *const ins_gps_ins_start_t)
+        -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Next IMU sample."]
+    #[doc = "\\param[in] t_ns  end of the interval, any time base, within +-INS_GNSS_TIME_MAX_NS. \\param[in] dt  its length [s]."]
+    #[doc = "\\return INS_OK; INS_E_RANGE: not a number, out of range, or its time does not follow: not used; INS_E_STATE: lost."]
+    pub fn ins_gps_ins_step(self_: *mut ins_gps_ins_t, t_ns: i64, dt: ins_real, increment: *const ins_increment_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Position and velocity are judged apart. \\return INS_OK: at least one was used; INS_E_GATE: none; INS_E_RANGE: not a number, no"]
+    #[doc = "sigma, or a time that the past does not reach."]
+    pub fn ins_gps_ins_gnss(self_: *mut ins_gps_ins_t, fix: *const ins_gnss_fix_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "At rest now. \\return INS_OK; INS_E_GATE."]
+    pub fn ins_gps_ins_zupt(self_: *mut ins_gps_ins_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Not turning over the last time. \\param[in] w_ib_b  [3] mean rate as the IMU gave it, bias and all [rad/s]."]
+    pub fn ins_gps_ins_zaru(self_: *mut ins_gps_ins_t, w_ib_b: *const ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "No velocity across the wheels, sideways or up, at cfg.wheel_b: non-holonomic constraint."]
+    pub fn ins_gps_ins_nhc(self_: *mut ins_gps_ins_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Forward speed of cfg.wheel_b [m/s], and its standard deviation."]
+    pub fn ins_gps_ins_odometer(self_: *mut ins_gps_ins_t, speed: ins_real, sigma: ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Rate of heading, right turn positive, of another gyro, over the last IMU sample [rad/s]."]
+    pub fn ins_gps_ins_yaw_rate(self_: *mut ins_gps_ins_t, rate: ins_real, sigma: ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Height of the IMU above the ellipsoid, of a barometer or a map [m]."]
+    pub fn ins_gps_ins_altitude(self_: *mut ins_gps_ins_t, height: ins_real, sigma: ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "The answer and how sure it is, of the last sample and measurement."]
+    pub fn ins_gps_ins_state(self_: *const ins_gps_ins_t, state: *mut ins_gps_ins_state_t);
+}
+#[doc = "Both sides take one; a member that the other side alone uses may be 0. reply_timeout must be longer than octet_timeout and one"]
+#[doc = "exchange of octets, so that the host is back in idle when the board asks again."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_hs_config_t {
+    #[doc = "1..INS_HS_BLOCK_MAX octets; at least 4 with seq"]
+    pub block_len: uint_least8_t,
+    #[doc = "1: sequence number in the spare high nibbles of X and Y"]
+    pub seq: uint_least8_t,
+    #[doc = "board: frames and requests sent again for one block; host: FFs, less one, for one request"]
+    pub retries: uint_least8_t,
+    #[doc = "board: wait for BB, 00 or FF, from when ins_hs_board_tx() gave the octet before"]
+    pub reply_timeout: u16,
+    #[doc = "host: longest silence inside a block"]
+    pub octet_timeout: u16,
+}
+#[doc = "Board side (A). Start with ins_hs_board_init(). Members are private, the counters readable."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_hs_board_t {
+    pub cfg: ins_hs_config_t,
+    pub state: uint_least8_t,
+    pub tries: uint_least8_t,
+    #[doc = "next octet of the frame to transmit"]
+    pub next: uint_least8_t,
+    pub sum: uint_least8_t,
+    pub since: u16,
+    pub block: [ins_octet_t; 32usize],
+    #[doc = "blocks acknowledged with 00"]
+    pub sent: u16,
+    #[doc = "frames or requests sent again, after FF or a time-out"]
+    pub resent: u16,
+    #[doc = "blocks dropped after the last retry"]
+    pub given_up: u16,
+}
+extern "C" {
+    #[doc = "Nothing on its way, counters 0. \\return INS_OK; INS_E_RANGE for a cfg that ins_hs_config_t does not allow."]
+    pub fn ins_hs_board_init(self_: *mut ins_hs_board_t, cfg: *const ins_hs_config_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Offer a block for transmission, with its sequence number (ignored with cfg.seq = 0)."]
+    #[doc = "\\return INS_OK; INS_E_STATE while an earlier block is on its way (nothing changed; see ins_hs_board_busy)."]
+    pub fn ins_hs_board_offer(self_: *mut ins_hs_board_t, block: *const ins_octet_t, seq: uint_least8_t, now: u16) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "1 while a block is on its way."]
+    pub fn ins_hs_board_busy(self_: *const ins_hs_board_t) -> uint_least8_t;
+}
+extern "C" {
+    #[doc = "Next octet to put on the line, or -1 for none. Call whenever the transmitter is free."]
+    pub fn ins_hs_board_tx(self_: *mut ins_hs_board_t, now: u16) -> i16;
+}
+extern "C" {
+    #[doc = "An octet came from the host."]
+    pub fn ins_hs_board_rx(self_: *mut ins_hs_board_t, octet: ins_octet_t, now: u16);
+}
+extern "C" {
+    #[doc = "Time passes: call at least every reply_timeout / 2 or so; expires waits."]
+    pub fn ins_hs_board_tick(self_: *mut ins_hs_board_t, now: u16);
+}
+pub const INS_HS_NOTHING: _bindgen_ty_10 = 0;
+#[doc = "a new block is in self->block (sequence nibbles removed), self->seq and self->gap are set"]
+pub const INS_HS_BLOCK: _bindgen_ty_10 = 1;
+#[doc = "a block already delivered came again (cfg.seq only); it was acknowledged"]
+pub const INS_HS_DUPLICATE: _bindgen_ty_10 = 2;
+#[doc = "the sum did not agree; FF was answered, or the tries are used up"]
+pub const INS_HS_CORRUPT: _bindgen_ty_10 = 3;
+#[doc = "What an octet led to, on the host."]
+pub type _bindgen_ty_10 = ::core::ffi::c_uint;
+#[doc = "Host side (B). Start with ins_hs_host_init(). Members are private, block, seq, gap and the counters readable."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_hs_host_t {
+    pub cfg: ins_hs_config_t,
+    pub state: uint_least8_t,
+    pub tries: uint_least8_t,
+    pub count: uint_least8_t,
+    pub sum: uint_least8_t,
+    pub have_seq: uint_least8_t,
+    #[doc = "sequence number of the last block delivered (0 with cfg.seq = 0)"]
+    pub seq: uint_least8_t,
+    #[doc = "blocks missing between the last two delivered, modulo 256 (0 with cfg.seq = 0)"]
+    pub gap: uint_least8_t,
+    pub since: u16,
+    pub block: [ins_octet_t; 32usize],
+    #[doc = "new blocks delivered"]
+    pub accepted: u32,
+    #[doc = "resent blocks recognised"]
+    pub duplicates: u32,
+    #[doc = "sums that did not agree"]
+    pub corrupt: u32,
+    #[doc = "blocks that stopped half-way"]
+    pub timeouts: u32,
+    #[doc = "octets that fit nowhere"]
+    pub stray: u32,
+}
+extern "C" {
+    #[doc = "In idle, counters 0. \\return as ins_hs_board_init()."]
+    pub fn ins_hs_host_init(self_: *mut ins_hs_host_t, cfg: *const ins_hs_config_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "An octet came from the board. \\param[out] reply octet to send back (BB, 00, FF), or -1. \\return one of INS_HS_*."]
+    pub fn ins_hs_host_rx(self_: *mut ins_hs_host_t, octet: ins_octet_t, now: u16, reply: *mut i16) -> ::core::ffi::c_int;
+}
+extern "C" {
+    #[doc = "Time passes without an octet: call it whenever the line has been silent for more than octet_timeout, else a block that stopped"]
+    #[doc = "half-way is found only when the next one fails its sum. Never call it between octets that are already waiting to be read."]
+    pub fn ins_hs_host_tick(self_: *mut ins_hs_host_t, now: u16);
+}
+extern "C" {
+    #[doc = "The paper's block of three 12-bit codes, XH XL YH YL ZH ZL. A code's bits 15..12 are not sent (ins_hs_board_offer puts the"]
+    #[doc = "sequence number there)."]
+    #[doc = "\\param[in] codes  [3] \\param[out] block  [6]"]
+    pub fn ins_hs_block_put(codes: *const u16, block: *mut ins_octet_t);
+}
+extern "C" {
+    #[doc = "\\param[in] block  [6] \\param[out] codes  [3] 0..4095"]
+    pub fn ins_hs_block_codes(block: *const ins_octet_t, codes: *mut u16);
+}
+#[doc = "Start with ins_hist2_init()."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_hist2_t {
+    #[doc = "scalar first; v_n = q v_b q*"]
+    pub q_nb: [ins_real; 4usize],
+    #[doc = "previous increments, newest first [rad]"]
+    pub prev: [[ins_real; 3usize]; 2usize],
+    #[doc = "previous increments held"]
+    pub count: uint_least8_t,
+}
+extern "C" {
+    #[doc = "\\return INS_OK; INS_E_RANGE for NaN, or a norm that is not within 1e-3 of 1 (it is normalised), and then self is unchanged."]
+    pub fn ins_hist2_init(self_: *mut ins_hist2_t, q_nb: *const ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Turn by one increment."]
+    #[doc = "\\return INS_OK; INS_S_START for the first two; INS_E_RANGE for NaN or one that turns by more than 0.5, its coning term"]
+    #[doc = "included, and then self is unchanged."]
+    pub fn ins_hist2_step(self_: *mut ins_hist2_t, dtheta_b: *const ins_real) -> ins_status_t;
 }
 extern "C" {
     #[doc = "One more octet."]

@@ -1,0 +1,122 @@
+/// \file   gps_ins_measure.c
+/// \brief  Measurements judged by their joint NIS and used one scalar at a time; the errors found go into the state. Frames: b, n.
+///
+/// Scalars in a row: S = H P H' + R = L D L', e = L^-1 v; e_i^2 / D_i is the NIS of each given those before, their sum the joint one.
+/// SPDX-License-Identifier: MIT
+#include "earth_internal.h"
+#include "gps_ins_internal.h"
+#include "ins/quat.h"
+#include "ins/vec.h"
+#include "strapdown_internal.h"
+
+ins_real ins_gps_ins_covariance(const ins_gps_ins_t* self, unsigned i, unsigned j)
+{
+    return self->kf.P[INS_KF15_ROW * i + j];
+}
+
+/// a P b
+static ins_real product(const ins_gps_ins_t* self, const ins_real a[INS_KF15_N], const ins_real b[INS_KF15_N])
+{
+    ins_real sum = 0;
+    for (unsigned i = 0; i < INS_KF15_N; i++)
+    {
+        for (unsigned j = 0; a[i] != 0 && j < INS_KF15_N; j++)
+        {
+            if (b[j] != 0)
+            {
+                sum += a[i] * b[j] * ins_gps_ins_covariance(self, i, j);
+            }
+        }
+    }
+    return sum;
+}
+
+static void judge(const ins_gps_ins_t* self, gps_ins_rows_t* rows)
+{
+    ins_real l[3][3];
+    ins_real d[3];
+    ins_real e[3];
+    rows->joint = 0;
+    for (unsigned i = 0; i < rows->n; i++)
+    {
+        e[i] = rows->v[i];
+        d[i] = product(self, rows->h[i], rows->h[i]) + rows->r[i];
+        for (unsigned j = 0; j < i; j++)
+        {
+            ins_real s = product(self, rows->h[i], rows->h[j]);
+            for (unsigned k = 0; k < j; k++)
+            {
+                s -= l[i][k] * l[j][k] * d[k];
+            }
+            l[i][j] = s / d[j];
+            d[i] -= l[i][j] * s;
+            e[i] -= l[i][j] * e[j];
+        }
+        rows->nis[i] = e[i] * e[i] / d[i];
+        rows->joint += rows->nis[i];
+    }
+}
+
+/// Truth = estimate + x, for fixes that come late too.
+static void correct(ins_gps_ins_t* self, const ins_real x[INS_KF15_N])
+{
+    ins_strapdown_t* nav = &self->nav;
+    ins_real dq[4];
+    ins_real s;
+    ins_real c;
+    earth_t earth;
+    if (ins_quat_from_rotvec(x + INS_KF15_PHI, dq) == INS_OK)
+    {
+        ins_quat_mul(dq, nav->sculling.q_nb, nav->sculling.q_nb);
+    }
+    strapdown_sin_cos(nav, nav->position.offset[0], &s, &c);
+    earth_at(s, nav->position.anchor[2] + nav->position.offset[2], &earth);
+    nav->position.offset[0] += x[INS_KF15_P] / earth.meridian;
+    nav->position.offset[1] += x[INS_KF15_P + 1] / (earth.normal * c);
+    nav->position.offset[2] -= x[INS_KF15_P + 2];
+    ins_vec_add_scaled(nav->v_n, 1, x + INS_KF15_V);
+    ins_vec_add_scaled(self->gyro_bias, 1, x + INS_KF15_BG);
+    ins_vec_add_scaled(self->accel_bias, 1, x + INS_KF15_BA);
+    for (unsigned k = 0; k < INS_GPS_INS_PAST; k++)
+    {
+        ins_gps_ins_past_t* past = &self->past[k];
+        ins_vec_add_scaled(past->u_n, -(ins_real)(self->t_ns - past->t_ns) * NS_TO_S, x + INS_KF15_V);
+        ins_vec_add_scaled(past->v_n, 1, x + INS_KF15_V);
+    }
+}
+
+ins_status_t ins_gps_ins_measure(ins_gps_ins_t* self, gps_ins_rows_t* rows, ins_real gate)
+{
+    ins_real x[INS_KF15_N] = {0};
+    int positive = 1;
+    judge(self, rows);
+    for (unsigned i = 0; i < rows->n; i++)
+    {
+        positive &= rows->r[i] > 0;
+    }
+    if (!positive || !(rows->joint >= 0 && rows->joint <= INS_REAL_MAX))
+    {
+        return INS_E_RANGE;
+    }
+    if (gate > 0 && rows->joint > gate)
+    {
+        return INS_E_GATE;
+    }
+    for (unsigned i = 0; i < rows->n; i++)
+    {
+        ins_innovation_t z = {rows->v[i], rows->r[i], 0, 0};
+        for (unsigned k = 0; k < INS_KF15_N; k++)
+        {
+            z.v -= rows->h[i][k] * x[k];
+        }
+        if (ins_kf15_update(&self->kf, rows->h[i], &z) == INS_OK)
+        {
+            for (unsigned k = 0; k < INS_KF15_N; k++)
+            {
+                x[k] += self->kf.K[k] * z.v;
+            }
+        }
+    }
+    correct(self, x);
+    return INS_OK;
+}

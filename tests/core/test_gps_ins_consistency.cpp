@@ -1,0 +1,81 @@
+/// \file   test_gps_ins_consistency.cpp
+/// \brief  Does the GPS/INS filter err as its covariance says? NEES and NIS of many runs against their 95 % bounds.
+///
+/// Units: SI, rad. The truth is libins_truth's, with the sensor errors that the filter is told. INS_BENCH=1: all 200 runs.
+/// SPDX-License-Identifier: MIT
+#include "gps_ins_ride.h"
+
+using namespace core_test;
+using namespace core_test::ride;
+
+namespace
+{
+constexpr int RUNS = 10;
+constexpr int BENCH_RUNS = 200;
+constexpr double DURATION_S = 60;
+constexpr size_t FIX_EVERY = 20; ///< samples: 5 Hz
+constexpr Errors START = {0.01, 0.01, 0.05, 0.2, 0.2, 0.2, 2, 2, 2, 1.7e-3, 1.7e-3, 1.7e-3, 0.05, 0.05, 0.05};
+
+int runs()
+{
+    return std::getenv("INS_BENCH") != nullptr ? BENCH_RUNS : RUNS;
+}
+
+/// A sum of squares that should be chi-squared.
+struct Squares
+{
+    double sum = 0, freedom = 0;
+    void take(double x, double n)
+    {
+        sum += x;
+        freedom += n;
+    }
+    void expect(const char* what) const
+    {
+        const auto bounds = chi2_95(freedom);
+        std::printf("[ figure   ] %s: %.4f a degree of freedom of %.0f, 95 %% within %.4f .. %.4f\n", what,
+                    sum / freedom, freedom, bounds[0] / freedom, bounds[1] / freedom);
+        EXPECT_GE(sum, bounds[0]) << what;
+        EXPECT_LE(sum, bounds[1]) << what;
+    }
+};
+
+TEST(gps_ins_consistency, nees_and_nis_of_many_runs_are_chi_squared)
+{
+    const ride::Track track = eight(5);
+    const Increments exact = increments(track.get(), DURATION_S);
+    std::array<Squares, 6> nees_at;
+    Squares position, velocity;
+    for (int run = 0; run < runs(); run++)
+    {
+        Ride r(track.get(), static_cast<uint64_t>(run + 1));
+        r.cfg.stuck = 0;
+        r.cfg.gate_position = 0;
+        r.cfg.gate_velocity = 0;
+        r.sensor_as_told();
+        r.start(0, START);
+        for (size_t k = 0; k < exact.size(); k++)
+        {
+            const double t = static_cast<double>(k + 1) / HZ;
+            ASSERT_EQ(r.step(t, exact[k]), INS_OK);
+            if ((k + 1) % FIX_EVERY == 0)
+            {
+                const ins_gnss_fix_t f = r.fix(t);
+                ASSERT_EQ(ins_gps_ins_gnss(&r.nav, &f), INS_OK);
+                position.take(static_cast<double>(r.nav.check.nis_position), 3);
+                velocity.take(static_cast<double>(r.nav.check.nis_velocity), 3);
+            }
+            if ((k + 1) % (exact.size() / nees_at.size()) == 0)
+            {
+                nees_at[(k + 1) / (exact.size() / nees_at.size()) - 1].take(nees(r.nav, r.errors(t)), N);
+            }
+        }
+    }
+    for (size_t i = 0; i < nees_at.size(); i++)
+    {
+        nees_at[i].expect(("NEES at " + std::to_string((i + 1) * 10) + " s").c_str());
+    }
+    position.expect("NIS of positions");
+    velocity.expect("NIS of velocities");
+}
+} // namespace
