@@ -20,15 +20,22 @@ typedef struct dds_log_t
     void* log_context;
 } dds_log_t;
 
-struct ins_dds_t
+/// The part of a DDS domain that a handle owns. Zeros before dds_place_open().
+typedef struct dds_place_t
 {
     dds_entity_t domain; ///< 0 = not ours
     dds_entity_t participant;
+    int opened;
+    dds_log_t log;
+} dds_place_t;
+
+struct ins_dds_t
+{
+    dds_place_t place;
     dds_entity_t topic;
     dds_entity_t writer;
     dds_entity_t reader;
     dds_entity_t waitset;
-    dds_log_t log;
     int kind; ///< INS_DDS_STATE or INS_DDS_SOLUTION
     union
     {
@@ -40,6 +47,16 @@ struct ins_dds_t
 /// Sets the thread's error text. \return status
 int dds_fail(int status, const char* format, ...);
 void dds_log_line(void* context, const dds_log_data_t* data);
+/// What the configuration says beyond kind and topics. After a refusal the place is still to be closed.
+int dds_place_open(dds_place_t* self, const ins_dds_config_t* cfg, const dds_qos_t* participant_qos);
+/// All entities are there: Cyclone's log goes where the configuration says from now on.
+void dds_place_ready(dds_place_t* self);
+void dds_place_close(dds_place_t* self);
+/// The error for an entity that Cyclone did not make. \return INS_DDS_E_DDS
+int dds_refused(const dds_place_t* self, const char* what, dds_return_t code);
+/// Reliability, history, durability, partition, and of a writer deadline and liveliness; to be freed.
+dds_qos_t* dds_quality(const ins_dds_config_t* cfg, int is_writer);
+dds_duration_t dds_duration(double seconds);
 
 /// The two structs hold the same fields; source and published_ns are the caller's.
 void dds_from_state(const ins_nav_state_t* from, libins_NavState* message);

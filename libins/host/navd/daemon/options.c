@@ -41,7 +41,7 @@ static const char* const help =
     "      --rate-order N        2 (trapezoid) to 5; 4\n"
     "      --bridge-max N        lost samples in a row before the state says long_gap; 50\n"
     "output\n"
-    "  -j, --json FILE|-         one JSON line per sample; standard output, unless --dds is given\n"
+    "  -j, --json FILE|-         one JSON line per sample; standard output, unless --dds or --ros is given\n"
     "      --dds[=DOMAIN]        publish libins::NavState, with --input nav libins::NavSolution; domain 0, loopback "
     "only\n"
     "      --dds-config FILE     Cyclone DDS configuration (XML) in place of loopback\n"
@@ -49,6 +49,10 @@ static const char* const help =
     "      --topic NAME          libins/nav_state, with --input nav libins/nav_solution\n"
     "      --partition NAME      none\n"
     "      --source ID           key of the published states; ins-navd\n"
+    "      --ros[=NAMESPACE]     publish ROS 2 topics (imu/data, /tf, /diagnostics; with --input nav gnss/fix, "
+    "odometry, twist\n"
+    "                            too) as node ins_navd; the domain is ROS_DOMAIN_ID, else that of --dds; loopback "
+    "only\n"
     "      --queue N             samples that may wait between the two threads; 64. A sample that finds it full is\n"
     "                            dropped and counted, and the next one bridges the gap\n"
     "run\n"
@@ -76,6 +80,7 @@ enum
     O_DDS,
     O_DDS_CONFIG,
     O_DDS_ENV,
+    O_ROS,
     O_TOPIC,
     O_PARTITION,
     O_SOURCE,
@@ -105,6 +110,7 @@ static const struct option known[] = {
     {"dds", optional_argument, NULL, O_DDS},
     {"dds-config", required_argument, NULL, O_DDS_CONFIG},
     {"dds-env", no_argument, NULL, O_DDS_ENV},
+    {"ros", optional_argument, NULL, O_ROS},
     {"topic", required_argument, NULL, O_TOPIC},
     {"partition", required_argument, NULL, O_PARTITION},
     {"source", required_argument, NULL, O_SOURCE},
@@ -312,6 +318,9 @@ static int take(options_t* o, int code, const char* text)
     case O_DDS_ENV:
         o->dds_environment = 1;
         break;
+    case O_ROS:
+        o->ros = text != NULL ? text : "/";
+        break;
     case O_TOPIC:
         o->topic = text;
         break;
@@ -372,9 +381,13 @@ static const char* problem(const options_t* o)
     {
         return "--baud: not a rate of this system; use 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200 or 230400";
     }
-    if (!o->dds && (o->dds_config != NULL || o->dds_environment || o->topic != NULL || o->partition != NULL))
+    if (!o->dds && (o->topic != NULL || o->partition != NULL))
     {
-        return "--dds-config, --dds-env, --topic and --partition want --dds";
+        return "--topic and --partition want --dds";
+    }
+    if (!o->dds && o->ros == NULL && (o->dds_config != NULL || o->dds_environment))
+    {
+        return "--dds-config and --dds-env want --dds or --ros";
     }
     if (o->dds_config != NULL && o->dds_environment)
     {
@@ -429,6 +442,6 @@ int options_parse(int argc, char** argv, options_t* options)
         fprintf(stderr, "ins-navd: %s\n", wrong);
         return 2;
     }
-    options->json = options->json == NULL && !options->dds ? "-" : options->json;
+    options->json = options->json == NULL && !options->dds && options->ros == NULL ? "-" : options->json;
     return -1;
 }

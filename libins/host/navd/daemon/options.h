@@ -30,6 +30,7 @@ typedef struct options_t
     const char* topic;      ///< NULL = the default
     const char* partition;
     const char* source;
+    const char* ros;  ///< ROS 2 namespace to publish in, NULL = none
     uint64_t limit;   ///< states, 0 = none
     double timeout_s; ///< 0 = none
     int quiet;

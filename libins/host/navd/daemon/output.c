@@ -28,7 +28,7 @@ int output_open(output_t* self, const options_t* options, char* error, size_t si
             return -1;
         }
     }
-    if (options->dds)
+    if (options->dds || options->ros != NULL)
     {
         self->publisher = publisher_open(options, error, size);
         if (self->publisher == NULL)

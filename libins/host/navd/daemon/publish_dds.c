@@ -1,7 +1,8 @@
 /// \file   publish_dds.c
-/// \brief  States to DDS (ins_dds/dds.h).
+/// \brief  States to DDS (ins_dds/dds.h) and to ROS 2 topics on it (ins_dds/ros.h).
 /// SPDX-License-Identifier: MIT
 #include "ins_dds/dds.h"
+#include "ins_dds/ros.h"
 #include "output.h"
 #include <errno.h>
 #include <stdio.h>
@@ -11,11 +12,15 @@
 
 #define CONFIG_MAX 65536
 
+#define DIAGNOSE_NS 1000000000 ///< between two lines of /diagnostics
+
 struct publisher_t
 {
-    ins_dds_t* dds;
+    ins_dds_t* dds; ///< NULL = no states
+    ins_ros_t* ros; ///< NULL = no ROS topics
     const char* source;
-    const options_t* options;
+    int64_t diagnosed_ns;
+    uint64_t lost; ///< as last diagnosed
 };
 
 static void log_line(void* context, const char* line)
@@ -46,6 +51,36 @@ static char* read_config(const char* path, char* error, size_t size)
     return text;
 }
 
+/// \return 1; 0 with the reason in error.
+static int open_both(publisher_t* self, const options_t* options, ins_dds_config_t* cfg)
+{
+    if (options->dds && ins_dds_open(cfg, &self->dds) != INS_DDS_OK)
+    {
+        return 0;
+    }
+    if (options->ros == NULL)
+    {
+        return 1;
+    }
+    ins_ros_config_t ros;
+    const char* const domain = getenv("ROS_DOMAIN_ID");
+    ins_ros_config_default(&ros);
+    ros.node = "ins_navd";
+    ros.name_space = options->ros;
+    ros.dds.domain = options->dds && (domain == NULL || domain[0] == '\0') ? cfg->domain : ros.dds.domain;
+    ros.dds.network = cfg->network;
+    ros.dds.xml = cfg->xml;
+    ros.dds.log = cfg->log;
+    ros.dds.log_context = cfg->log_context;
+    int status = ins_ros_open(&ros, &self->ros);
+    if (status == INS_DDS_E_DOMAIN) // the states' own
+    {
+        ros.dds.network = INS_DDS_JOIN;
+        status = ins_ros_open(&ros, &self->ros);
+    }
+    return status == INS_DDS_OK;
+}
+
 publisher_t* publisher_open(const options_t* options, char* error, size_t size)
 {
     ins_dds_config_t cfg;
@@ -69,17 +104,16 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
         cfg.xml = text;
     }
     publisher_t* self = calloc(1, sizeof *self);
-    if (self == NULL || ins_dds_open(&cfg, &self->dds) != INS_DDS_OK)
+    if (self == NULL || !open_both(self, options, &cfg))
     {
         (void)snprintf(error, size, "%s%s%s", options->dds_config != NULL ? options->dds_config : "",
                        options->dds_config != NULL ? ": " : "", self == NULL ? "memory is out" : ins_dds_error_text());
-        free(self);
+        publisher_close(self);
         self = NULL;
     }
     else
     {
         self->source = options->source;
-        self->options = options;
     }
     free(text);
     return self;
@@ -92,20 +126,78 @@ static int64_t wall_ns(void)
     return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
+/// Once a second, how the link does.
+static void diagnose(publisher_t* self, const ins_nav_counts_t* counts, int64_t now_ns)
+{
+    if (now_ns - self->diagnosed_ns < DIAGNOSE_NS)
+    {
+        return;
+    }
+    const struct
+    {
+        const char* key;
+        uint64_t count;
+    } all[] = {{"accepted", counts->accepted}, {"lost", counts->lost},
+               {"invalid", counts->invalid},   {"duplicates", counts->duplicates},
+               {"corrupt", counts->corrupt},   {"timeouts", counts->timeouts},
+               {"stray", counts->stray}};
+    enum
+    {
+        COUNTS = sizeof all / sizeof all[0],
+        DIGITS = 24
+    };
+    ins_ros_value_t values[COUNTS];
+    char text[COUNTS][DIGITS];
+    for (int i = 0; i < COUNTS; i++)
+    {
+        (void)snprintf(text[i], DIGITS, "%llu", (unsigned long long)all[i].count);
+        values[i] = (ins_ros_value_t){all[i].key, text[i]};
+    }
+    const int loses = counts->lost > self->lost;
+    (void)ins_ros_diagnose(self->ros, now_ns, loses ? INS_ROS_LEVEL_WARN : INS_ROS_LEVEL_OK,
+                           loses ? "samples are lost on the link" : "samples arrive", values, COUNTS);
+    self->lost = counts->lost;
+    self->diagnosed_ns = now_ns;
+}
+
+static int put_ros(publisher_t* self, const ins_navigation_t* navigation, const ins_nav_counts_t* counts)
+{
+    diagnose(self, counts, navigation->time_ns);
+    return ins_ros_publish(self->ros, navigation) == INS_DDS_OK;
+}
+
 int publisher_put(publisher_t* self, const ins_nav_state_t* state)
 {
-    return ins_dds_publish(self->dds, state, self->source, wall_ns()) == INS_DDS_OK;
+    const int64_t now_ns = wall_ns();
+    const int states = self->dds == NULL || ins_dds_publish(self->dds, state, self->source, now_ns) == INS_DDS_OK;
+    if (self->ros == NULL)
+    {
+        return states;
+    }
+    ins_navigation_t navigation;
+    ins_navigation_from_state(state, now_ns, &navigation);
+    return put_ros(self, &navigation, &state->counts) && states;
 }
 
 int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution)
 {
-    return ins_dds_publish_solution(self->dds, solution, self->source, wall_ns()) == INS_DDS_OK;
+    const int64_t now_ns = wall_ns();
+    const int states =
+        self->dds == NULL || ins_dds_publish_solution(self->dds, solution, self->source, now_ns) == INS_DDS_OK;
+    if (self->ros == NULL)
+    {
+        return states;
+    }
+    ins_navigation_t navigation;
+    ins_navigation_from_solution(solution, now_ns, &navigation);
+    return put_ros(self, &navigation, &solution->counts) && states;
 }
 
 void publisher_close(publisher_t* self)
 {
     if (self != NULL)
     {
+        ins_ros_close(self->ros); // it may be in the domain that the states' handle owns
         ins_dds_close(self->dds);
         free(self);
     }

@@ -1,0 +1,179 @@
+/// \file   domain.c
+/// \brief  The part of a DDS domain that a handle owns: the domain itself, a participant in it, and Cyclone's log.
+/// SPDX-License-Identifier: MIT
+#include "dds_internal.h"
+#include <stdlib.h>
+#include <string.h>
+
+/// Loopback only, no multicast, up to 61 processes of a domain on one machine. MaxAutoParticipantIndex is also the number of ports
+/// that discovery tries, hence not larger.
+static const char loopback_xml[] =
+    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
+    "<MaxAutoParticipantIndex>60</MaxAutoParticipantIndex><Peers><Peer "
+    "address=\"127.0.0.1\"/></Peers></Discovery></Domain>"
+    "</CycloneDDS>";
+
+#define MAX_BLOCKING                                                                                                   \
+    DDS_MSECS(100) ///< what a write may wait for room; with KEEP_LAST it replaces the oldest sample instead
+
+static int check(const ins_dds_config_t* cfg)
+{
+    if (cfg->domain > INS_DDS_DOMAIN_MAX)
+    {
+        return dds_fail(INS_DDS_E_ARGUMENT, "DDS domain id %u is out of range: use 0 to %d", (unsigned)cfg->domain,
+                        INS_DDS_DOMAIN_MAX);
+    }
+    if (cfg->network < INS_DDS_LOOPBACK || cfg->network > INS_DDS_JOIN)
+    {
+        return dds_fail(INS_DDS_E_ARGUMENT, "unknown kind of DDS network configuration: %d", cfg->network);
+    }
+    if (cfg->network == INS_DDS_XML && (cfg->xml == NULL || cfg->xml[0] != '<'))
+    {
+        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS configuration must be an XML text that starts with <CycloneDDS>");
+    }
+    const char* uri = getenv("CYCLONEDDS_URI");
+    if (cfg->network == INS_DDS_ENVIRONMENT && (uri == NULL || uri[0] == '\0'))
+    {
+        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS configuration was to come from CYCLONEDDS_URI, which is not set");
+    }
+    // Written so that NaN is refused.
+    if (!(cfg->deadline_s >= 0.0 && cfg->deadline_s <= 1e6) || !(cfg->lease_s >= 0.01 && cfg->lease_s <= 1e6))
+    {
+        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS deadline must be 0 to 1e6 s, the liveliness lease 0.01 to 1e6 s");
+    }
+    if (cfg->history < 1 || cfg->history > 100000)
+    {
+        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS history must be 1 to 100000 samples");
+    }
+    return INS_DDS_OK;
+}
+
+int dds_refused(const dds_place_t* self, const char* what, dds_return_t code)
+{
+    return dds_fail(INS_DDS_E_DDS, "DDS refused the %s: %s%s%s", what, dds_strretcode(code),
+                    self->log.text[0] != '\0' ? ": " : "", self->log.text);
+}
+
+static int create_domain(dds_place_t* self, const ins_dds_config_t* cfg)
+{
+    const char* xml = loopback_xml;
+    xml = cfg->network == INS_DDS_XML ? cfg->xml : xml;
+    xml = cfg->network == INS_DDS_ENVIRONMENT ? getenv("CYCLONEDDS_URI") : xml;
+    const dds_entity_t domain = dds_create_domain(cfg->domain, xml);
+    if (cfg->network == INS_DDS_JOIN)
+    {
+        if (domain == DDS_RETCODE_PRECONDITION_NOT_MET)
+        {
+            return INS_DDS_OK;
+        }
+        if (domain > 0)
+        {
+            (void)dds_delete(domain);
+        }
+        return dds_fail(INS_DDS_E_DOMAIN,
+                        "this process has no DDS domain %u to join: open it, or choose another network configuration",
+                        (unsigned)cfg->domain);
+    }
+    if (domain > 0)
+    {
+        self->domain = domain;
+        return INS_DDS_OK;
+    }
+    if (domain == DDS_RETCODE_PRECONDITION_NOT_MET)
+    {
+        return dds_fail(
+            INS_DDS_E_DOMAIN,
+            "this process already has DDS domain %u: close it, take another domain id, or open with INS_DDS_JOIN",
+            (unsigned)cfg->domain);
+    }
+    if (strstr(self->log.text, "interface") != NULL)
+    {
+        return dds_fail(INS_DDS_E_NETWORK, "no network interface that DDS can use (%s): %s", self->log.text,
+                        cfg->network == INS_DDS_LOOPBACK
+                            ? "run `ip link set lo up`"
+                            : "name one of this machine (`ip link`), or use the loopback configuration");
+    }
+    return cfg->network == INS_DDS_LOOPBACK ? dds_refused(self, "domain", domain)
+                                            : dds_fail(INS_DDS_E_ARGUMENT, "DDS refused its configuration (%s): %s",
+                                                       dds_strretcode(domain), self->log.text);
+}
+
+int dds_place_open(dds_place_t* self, const ins_dds_config_t* cfg, const dds_qos_t* participant_qos)
+{
+    const int fault = check(cfg);
+    if (fault != INS_DDS_OK)
+    {
+        return fault;
+    }
+    (void)pthread_mutex_init(&self->log.mutex, NULL);
+    self->opened = 1;
+    self->log.collect = 1;
+    self->log.log = cfg->log;
+    self->log.log_context = cfg->log_context;
+    dds_set_log_sink(dds_log_line, &self->log);
+    const int status = create_domain(self, cfg);
+    if (status != INS_DDS_OK)
+    {
+        return status;
+    }
+    self->participant = dds_create_participant(cfg->domain, participant_qos, NULL);
+    return self->participant < 0 ? dds_refused(self, "participant", self->participant) : INS_DDS_OK;
+}
+
+void dds_place_ready(dds_place_t* self)
+{
+    (void)pthread_mutex_lock(&self->log.mutex);
+    self->log.collect = 0;
+    (void)pthread_mutex_unlock(&self->log.mutex);
+    if (self->log.log == NULL)
+    {
+        dds_set_log_sink(NULL, NULL);
+    }
+    else if (self->log.text[0] != '\0')
+    {
+        self->log.log(self->log.log_context, self->log.text);
+    }
+}
+
+void dds_place_close(dds_place_t* self)
+{
+    if (!self->opened)
+    {
+        return;
+    }
+    if (self->domain > 0)
+    {
+        (void)dds_delete(self->domain); // and all that was made in it
+    }
+    else if (self->participant > 0)
+    {
+        (void)dds_delete(self->participant);
+    }
+    dds_set_log_sink(NULL, NULL);
+    (void)pthread_mutex_destroy(&self->log.mutex);
+}
+
+dds_duration_t dds_duration(double seconds)
+{
+    return (dds_duration_t)(seconds * 1e9);
+}
+
+dds_qos_t* dds_quality(const ins_dds_config_t* cfg, int is_writer)
+{
+    dds_qos_t* qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, MAX_BLOCKING);
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, (int32_t)cfg->history);
+    dds_qset_durability(qos, DDS_DURABILITY_VOLATILE);
+    if (cfg->partition != NULL)
+    {
+        dds_qset_partition1(qos, cfg->partition);
+    }
+    if (is_writer)
+    {
+        dds_qset_writer_data_lifecycle(qos, false);
+        dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, dds_duration(cfg->lease_s));
+        dds_qset_deadline(qos, cfg->deadline_s > 0.0 ? dds_duration(cfg->deadline_s) : DDS_INFINITY);
+    }
+    return qos;
+}
