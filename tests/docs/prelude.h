@@ -7,15 +7,18 @@
 #include "emu_8051/acq_board.h"
 #include "emu_f2812/f2812.h"
 #include "ins_dds/dds.h"
+#include "ins_dds/ros.h"
 #include "ins_nav/nav.h"
 #include "ins_nav/nav_input.h"
-#include "ins_truth/gps.h"
 #include "ins_truth/accel.h"
+#include "ins_truth/gps.h"
 #include "ins_truth/gyro.h"
 #include "ins_truth/motion.h"
 extern ins_nav_t nav;
 extern ins_nav_state_t state;
 extern ins_dds_t* dds;
+extern ins_ros_t* ros;
+extern ins_navigation_t navigation;
 extern int64_t now_ns;
 extern uint64_t now_ms;
 extern int reply;

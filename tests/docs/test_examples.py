@@ -74,7 +74,9 @@ HEADER_EXAMPLES = [
 def only_double(example: str) -> bool:
     """The host's and the emulator's libraries have one number type."""
     return (
-        re.search(r"\b(ins_(nav(?!_block)|dds|motion|gyro|accels|track|gps(?!_axis|_ins))|emu|acq_board)_\w+", example)
+        re.search(
+            r"\b(ins_(nav(?!_block)|dds|ros|motion|gyro|accels|track|gps(?!_axis|_ins))|emu|acq_board)_\w+", example
+        )
         is not None
     )
 

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import subprocess
+import sys
 import tempfile
 from collections.abc import Callable, Iterator
 
@@ -281,3 +282,28 @@ def test_the_daemon_publishes_a_boards_attitude():
         np.testing.assert_allclose(r @ r.T, np.eye(3), atol=1e-9)
         assert imu.linear_acceleration_covariance[0] == -1, "there is no accelerometer on this board"
     assert sum(topic == "rt/tf" for topic, _ in octets) > 20
+
+
+def test_a_run_publishes_its_own_navigator_beside_its_states():
+    """ins run --dds --ros: both in one domain of one process."""
+    topics = {"rt/unit1/imu/data": "sensor_msgs/msg/Imu"}
+    command = [sys.executable, "-m", "libins", "run", "default", "--dds", "--ros", "/unit1", "--domain", str(DOMAIN)]
+    with judge(topics) as heard:
+        environment = {key: value for key, value in os.environ.items() if key != "ROS_DOMAIN_ID"}
+        done = subprocess.run(
+            [*command, "--stop-s", "3", "--speed", "1", "--json", "-"],
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=WALL_LIMIT_S,
+        )
+        assert done.returncode == 0, done.stderr
+    assert json.loads(done.stdout)["dds"]["published"] > 100
+    assert sum("topic" in line for line in heard) > 50
+
+
+def test_a_wrong_namespace_is_refused():
+    command = [sys.executable, "-m", "libins", "run", "default", "--ros", "unit 1", "--domain", str(DOMAIN)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=WALL_LIMIT_S)
+    assert done.returncode == 2
+    assert "ROS namespace 'unit 1'" in done.stderr

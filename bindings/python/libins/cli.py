@@ -1,10 +1,12 @@
 """The `ins` command."""
 
 import argparse
+import contextlib
 import json
 import os
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -76,6 +78,13 @@ def parser() -> argparse.ArgumentParser:
     )
     r.add_argument("--strict", action="store_true", help="exit 3 when the firmware did something wrong")
     r.add_argument("--dds", action="store_true", help="publish the navigation states while they come")
+    r.add_argument(
+        "--ros",
+        nargs="?",
+        const="/",
+        metavar="NAMESPACE",
+        help="publish them as ROS 2 topics, on ROS_DOMAIN_ID, else on --domain",
+    )
     r.add_argument(
         "--serial",
         action="append",
@@ -161,24 +170,38 @@ def _dds_options(command: argparse.ArgumentParser) -> None:
     )
 
 
-def open_dds(options: argparse.Namespace, publishes: bool) -> Any:
-    """A DDS handle from the command line's options. Raises UsageError."""
+def _dds_module(options: argparse.Namespace) -> tuple[Any, str | None]:
+    """The extension, and the text of --dds-config. Raises UsageError."""
     try:
         from libins import _dds
     except ImportError as error:
         raise UsageError("this build has no DDS: install cyclonedds-dev and build with INS_BUILD_DDS=ON") from error
-    xml = None
-    if options.dds_config is not None:
-        try:
-            xml = options.dds_config.read_text(encoding="utf-8")
-        except OSError as error:
-            raise UsageError(f"{options.dds_config}: cannot be read: {error.strerror}") from error
     if not 0 <= options.domain <= 230:
         raise UsageError(f"--domain {options.domain}: must lie in 0 .. 230")
+    if options.dds_config is None:
+        return _dds, None
+    try:
+        return _dds, options.dds_config.read_text(encoding="utf-8")
+    except OSError as error:
+        raise UsageError(f"{options.dds_config}: cannot be read: {error.strerror}") from error
+
+
+def open_dds(options: argparse.Namespace, publishes: bool) -> Any:
+    """A DDS handle from the command line's options. Raises UsageError."""
+    _dds, xml = _dds_module(options)
     try:
         return _dds.Handle(options.domain, options.topic or _dds.TOPIC, xml, publishes)
     except RuntimeError as error:
         raise UsageError(f"DDS: {error}") from error
+
+
+def _open_ros(options: argparse.Namespace) -> Any:
+    _dds, xml = _dds_module(options)
+    domain = None if os.environ.get("ROS_DOMAIN_ID") else options.domain
+    try:
+        return _dds.Node(options.ros, domain, xml)
+    except RuntimeError as error:
+        raise UsageError(f"ROS: {error}") from error
 
 
 def _speed(text: str | None) -> float | None:
@@ -208,17 +231,15 @@ def _run_command(options: argparse.Namespace) -> int:
     runs = scenario.load_all(scenario.find(options.scenario), options.firmware, settings)
     if len(runs) > 1 and options.serial:
         raise UsageError(f"--serial: {options.scenario} makes {len(runs)} runs; choose one with --set and --firmware")
-    handle = open_dds(options, publishes=True) if options.dds else None
     results: list[tuple[str, run.Result]] = []
-    try:
+    with contextlib.ExitStack() as opened:
+        handle = opened.enter_context(contextlib.closing(open_dds(options, publishes=True))) if options.dds else None
+        node = opened.enter_context(contextlib.closing(_open_ros(options))) if options.ros is not None else None
         for number, loaded in enumerate(runs, start=1):
-            result = _run_one(loaded, options, handle, number if len(runs) > 1 else None)
+            result = _run_one(loaded, options, (handle, node), number if len(runs) > 1 else None)
             results.append((loaded.name, result))
             if str(options.json) != "-":
                 print(report.text(result.summary), file=log, flush=True)
-    finally:
-        if handle is not None:
-            handle.close()
     summaries = [result.summary for _, result in results]
     if options.json is not None:
         write(options.json, run.to_json(summaries if len(runs) > 1 else summaries[0]))
@@ -233,8 +254,22 @@ def _run_command(options: argparse.Namespace) -> int:
     return worst
 
 
-def _run_one(loaded: Loaded, options: argparse.Namespace, handle: Any, number: int | None) -> run.Result:
-    """One run and its files; number: which of several, for the files' names."""
+def _publisher(handle: Any, node: Any, source: str) -> Callable[[bytes], None] | None:
+    if handle is None and node is None:
+        return None
+
+    def publish(state: bytes) -> None:
+        now_ns = time.time_ns()
+        if handle is not None:
+            handle.publish(state, source, now_ns)
+        if node is not None:
+            node.publish(state, now_ns)
+
+    return publish
+
+
+def _run_one(loaded: Loaded, options: argparse.Namespace, outlets: tuple[Any, Any], number: int | None) -> run.Result:
+    """One run and its files; outlets: DDS handle and ROS node; number: which of several, for the files' names."""
 
     def place(path: Path) -> Path:
         return path if number is None else path.with_name(f"{path.stem}.{number}{path.suffix}")
@@ -250,8 +285,7 @@ def _run_one(loaded: Loaded, options: argparse.Namespace, handle: Any, number: i
     )
     if options.console is not None:
         settings.console = _print_octets
-    if handle is not None:
-        settings.publish = lambda state: handle.publish(state, loaded.name, time.time_ns())
+    settings.publish = _publisher(*outlets, loaded.name)
     trace_lines = ["t_ps,wire,level\n"]
     if options.trace is not None:
         settings.trace = lambda wires, edges: trace_lines.extend(report.trace_lines(wires, edges))

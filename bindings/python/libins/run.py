@@ -29,8 +29,8 @@ PACED_SLICE_S = 0.001
 INSIDE = ("link.", "attitude.", "age_s.", "position.", "solution.")
 """Values that need the navigator inside the run; with a host outside, expectations on them are not judged."""
 NO_SOLUTIONS = (
-    "--dds publishes what a navigator makes of codes; of a board that navigates itself, tie the host to a pty by "
-    "--serial and let ins-navd --input nav publish"
+    "--dds and --ros publish what a navigator makes of codes; of a board that navigates itself, tie the host to a pty "
+    "by --serial and let ins-navd --input nav publish"
 )
 BOUNDS = ("at_least", "at_most")
 

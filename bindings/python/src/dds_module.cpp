@@ -1,6 +1,7 @@
 /// \file   dds_module.cpp
-/// \brief  The Python module libins._dds: publisher and subscriber over libins_dds. SPDX-License-Identifier: MIT
+/// \brief  The Python module libins._dds: publisher and subscriber over libins_dds, ROS 2 topics. SPDX-License-Identifier: MIT
 #include "ins_dds/dds.h"
+#include "ins_dds/ros.h"
 #include <array>
 #include <cstring>
 #include <memory>
@@ -59,6 +60,51 @@ class Handle
     ins_dds_t* self_ = nullptr;
 };
 
+/// A ROS 2 node "libins". It joins the domain if a Handle of this process has it; then it must be closed first.
+class Node
+{
+  public:
+    Node(const std::string& name_space, const std::optional<uint32_t>& domain, const std::optional<std::string>& xml)
+    {
+        ins_ros_config_t cfg;
+        ins_ros_config_default(&cfg);
+        cfg.dds.domain = domain.value_or(INS_ROS_DOMAIN_ENV);
+        cfg.name_space = name_space.c_str();
+        cfg.dds.network = xml ? INS_DDS_XML : INS_DDS_LOOPBACK;
+        cfg.dds.xml = xml ? xml->c_str() : nullptr;
+        int status = ins_ros_open(&cfg, &self_);
+        if (status == INS_DDS_E_DOMAIN)
+        {
+            cfg.dds.network = INS_DDS_JOIN;
+            status = ins_ros_open(&cfg, &self_);
+        }
+        if (status != INS_DDS_OK)
+        {
+            throw std::runtime_error(ins_dds_error_text());
+        }
+    }
+    ~Node() { close(); }
+    Node(const Node&) = delete;
+    Node& operator=(const Node&) = delete;
+
+    void close()
+    {
+        ins_ros_close(self_);
+        self_ = nullptr;
+    }
+    ins_ros_t* get() const
+    {
+        if (self_ == nullptr)
+        {
+            throw std::runtime_error("this ROS node is closed");
+        }
+        return self_;
+    }
+
+  private:
+    ins_ros_t* self_ = nullptr;
+};
+
 int checked(int result)
 {
     if (result < 0)
@@ -69,7 +115,7 @@ int checked(int result)
 }
 
 /// raw: the octets of an ins_nav_state_t, as Run.take_states() gives them.
-void publish(Handle& handle, const nb::bytes& raw, const std::string& source, int64_t published_ns)
+ins_nav_state_t state_of(const nb::bytes& raw)
 {
     ins_nav_state_t state;
     if (raw.size() != sizeof state)
@@ -77,7 +123,21 @@ void publish(Handle& handle, const nb::bytes& raw, const std::string& source, in
         throw std::invalid_argument("a navigation state of another size: _run and _dds are of different builds");
     }
     std::memcpy(&state, raw.c_str(), sizeof state);
+    return state;
+}
+
+void publish(Handle& handle, const nb::bytes& raw, const std::string& source, int64_t published_ns)
+{
+    const ins_nav_state_t state = state_of(raw);
     checked(ins_dds_publish(handle.get(), &state, source.c_str(), published_ns));
+}
+
+void publish_ros(Node& node, const nb::bytes& raw, int64_t time_ns)
+{
+    const ins_nav_state_t state = state_of(raw);
+    ins_navigation_t navigation;
+    ins_navigation_from_state(&state, time_ns, &navigation);
+    checked(ins_ros_publish(node.get(), &navigation));
 }
 
 /// Samples as dictionaries: source, published_ns, gone, and the state as its line of JSON.
@@ -121,4 +181,9 @@ NB_MODULE(_dds, m)
         .def("take", take, "timeout_s"_a)
         .def("matched", [](const Handle& self) { return checked(ins_dds_matched(self.get())); })
         .def("close", &Handle::close);
+    nb::class_<Node>(m, "Node")
+        .def(nb::init<const std::string&, const std::optional<uint32_t>&, const std::optional<std::string>&>(),
+             "name_space"_a, "domain"_a.none(), "xml"_a.none())
+        .def("publish", publish_ros, "state"_a, "time_ns"_a)
+        .def("close", &Node::close);
 }
