@@ -329,7 +329,7 @@ ins_status_t ins_gps_dr_fix(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
     if (status != INS_OK)
     {
         self->gross++;
-        self->gross_run = (uint_least8_t)(self->gross_run + (self->gross_run < UINT_LEAST8_MAX));
+        self->gross_run = (uint_least8_t)(self->gross_run + (self->gross_run < 255));
         (void)ins_switch_epoch(&self->choice, 0, 0, 0, 0);
         if (self->cfg.restart == 0 || self->gross_run < self->cfg.restart)
         {
