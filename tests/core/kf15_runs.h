@@ -145,13 +145,44 @@ struct Reference
     }
 };
 
-/// Both forms behind one face. \tparam F  ins_kf15_t or ins_kf15_ud_t
-inline Dense covariance(const ins_kf15_t& f)
+/// Both forms behind one face.
+struct Symmetric
 {
+    ins_kf15_t f;
+    ins_status_t init(const Row15& sigma) { return ins_kf15_init(&f, sigma.data()); }
+    void propagate(const ins_kf15_model_t& m) { ins_kf15_propagate(&f, &m); }
+    ins_status_t update(const Row15& h, ins_innovation_t& z) { return ins_kf15_update(&f, h.data(), &z); }
+    ins_status_t update_state(unsigned index, ins_innovation_t& z) { return ins_kf15_update_state(&f, index, &z); }
+    std::array<ins_real, N15 * INS_KF15_ROW> packed() const
+    {
+        std::array<ins_real, N15 * INS_KF15_ROW> P;
+        std::copy(std::begin(f.P), std::end(f.P), P.begin());
+        return P;
+    }
+};
+
+struct Factors
+{
+    ins_kf15_ud_t f;
+    ins_status_t init(const Row15& sigma) { return ins_kf15_ud_init(&f, sigma.data()); }
+    void propagate(const ins_kf15_model_t& m) { ins_kf15_ud_propagate(&f, &m); }
+    ins_status_t update(const Row15& h, ins_innovation_t& z) { return ins_kf15_ud_update(&f, h.data(), &z); }
+    ins_status_t update_state(unsigned index, ins_innovation_t& z) { return ins_kf15_ud_update_state(&f, index, &z); }
+    std::array<ins_real, N15 * INS_KF15_ROW> packed() const
+    {
+        std::array<ins_real, N15 * INS_KF15_ROW> P;
+        ins_kf15_ud_covariance(&f, P.data());
+        return P;
+    }
+};
+
+template <typename Form> Dense covariance(const Form& form)
+{
+    const auto packed = form.packed();
     Dense P;
     for (size_t i = 0; i < N15 * N15; i++)
     {
-        P[i / N15][i % N15] = static_cast<long double>(f.P[i / N15 * INS_KF15_ROW + i % N15]);
+        P[i / N15][i % N15] = static_cast<long double>(packed[i / N15 * INS_KF15_ROW + i % N15]);
     }
     return P;
 }

@@ -35,26 +35,40 @@ Row15 antenna_velocity_east()
 }
 } // namespace
 
-TEST(kf15, follows_the_dense_filter)
+template <typename Form> class Kf15 : public testing::Test
+{
+  protected:
+    Kf15() { EXPECT_EQ(form.init(sigmas()), INS_OK); }
+    /// One step of the drive; the reference's too, if there is one.
+    void step(long k, Reference* reference = nullptr)
+    {
+        const ins_increment_t x = drive(k);
+        ASSERT_GE(ins_strapdown_step(&strapdown, &x), INS_OK);
+        ins_kf15_model(&model, &strapdown, x.v_b);
+        form.propagate(model);
+        if (reference)
+        {
+            reference->propagate(model);
+        }
+    }
+    Form form;
+    ins_strapdown_t strapdown = start_of_drive();
+    ins_kf15_model_t model = start_of_model();
+};
+using Forms = testing::Types<Symmetric, Factors>;
+TYPED_TEST_SUITE(Kf15, Forms, );
+
+TYPED_TEST(Kf15, follows_the_dense_filter)
 {
     const long steps = 400;
     const long between = 20;
-    ins_strapdown_t s = start_of_drive();
-    ins_kf15_model_t m = start_of_model();
-    const Row15 sigma = sigmas();
-    ins_kf15_t f;
-    ASSERT_EQ(ins_kf15_init(&f, sigma.data()), INS_OK);
-    Reference want(sigma);
+    Reference want(sigmas());
     Worst covariances;
     Worst gains;
     for (long k = 0; k < steps; k++)
     {
-        const ins_increment_t x = drive(k);
-        ASSERT_GE(ins_strapdown_step(&s, &x), INS_OK);
-        ins_kf15_model(&m, &s, x.v_b);
-        ins_kf15_propagate(&f, &m);
-        want.propagate(m);
-        const size_t turn = static_cast<size_t>(k / between) % 8;
+        this->step(k, &want);
+        const unsigned turn = static_cast<unsigned>(k / between) % 8;
         if (k % between == between - 1)
         {
             const double r = 0.04;
@@ -62,51 +76,44 @@ TEST(kf15, follows_the_dense_filter)
             Row15 h = {};
             if (turn < 6)
             {
-                const unsigned index = INS_KF15_V + static_cast<unsigned>(turn);
-                h[index] = 1;
-                ASSERT_EQ(ins_kf15_update_state(&f, index, &z), INS_OK);
+                h[INS_KF15_V + turn] = 1;
+                ASSERT_EQ(this->form.update_state(INS_KF15_V + turn, z), INS_OK);
             }
             else
             {
                 h = turn == 6 ? antenna_north() : antenna_velocity_east();
-                ASSERT_EQ(ins_kf15_update(&f, h.data(), &z), INS_OK);
+                ASSERT_EQ(this->form.update(h, z), INS_OK);
             }
             want.update(h, static_cast<double>(z.r));
             for (size_t i = 0; i < N15; i++)
             {
                 const double scale = std::sqrt(static_cast<double>(want.P[i][i]) / r);
-                gains.take(static_cast<double>(f.K[i]), static_cast<double>(want.K[i]), scale, std::to_string(k));
+                gains.take(static_cast<double>(this->form.f.K[i]), static_cast<double>(want.K[i]), scale,
+                           std::to_string(k));
             }
         }
-        covariances.take(distance(covariance(f), want.P), 0, 1, std::to_string(k));
+        covariances.take(distance(covariance(this->form), want.P), 0, 1, std::to_string(k));
     }
     expect_within(covariances, TOL_P, "P");
     expect_within(gains, TOL_K, "K");
 }
 
-TEST(kf15, is_symmetric_to_the_last_bit)
+TYPED_TEST(Kf15, is_symmetric_to_the_last_bit)
 {
-    ins_strapdown_t s = start_of_drive();
-    ins_kf15_model_t m = start_of_model();
-    ins_kf15_t f;
-    ASSERT_EQ(ins_kf15_init(&f, sigmas().data()), INS_OK);
     for (long k = 0; k < 300; k++)
     {
-        const ins_increment_t x = drive(k);
-        ASSERT_GE(ins_strapdown_step(&s, &x), INS_OK);
-        ins_kf15_model(&m, &s, x.v_b);
-        ins_kf15_propagate(&f, &m);
+        this->step(k);
         ins_innovation_t z = {0, 1, 0, 0};
-        const Row15 h = k % 2 ? antenna_north() : antenna_velocity_east();
-        ASSERT_EQ(ins_kf15_update(&f, h.data(), &z), INS_OK);
-        ASSERT_EQ(ins_kf15_update_state(&f, static_cast<unsigned>(k) % N15, &z), INS_OK);
+        ASSERT_EQ(this->form.update(k % 2 ? antenna_north() : antenna_velocity_east(), z), INS_OK);
+        ASSERT_EQ(this->form.update_state(static_cast<unsigned>(k) % N15, z), INS_OK);
+        const auto P = this->form.packed();
         for (size_t i = 0; i < N15; i++)
         {
             for (size_t j = 0; j < N15; j++)
             {
-                ASSERT_EQ(f.P[i * INS_KF15_ROW + j], f.P[j * INS_KF15_ROW + i]) << k << " " << i << " " << j;
+                ASSERT_EQ(P[i * INS_KF15_ROW + j], P[j * INS_KF15_ROW + i]) << k << " " << i << " " << j;
             }
-            ASSERT_EQ(f.P[i * INS_KF15_ROW + N15], 0);
+            ASSERT_EQ(P[i * INS_KF15_ROW + N15], 0);
         }
     }
 }

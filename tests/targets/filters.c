@@ -64,6 +64,61 @@ static void kalman(void)
     same_end();
 }
 
+/// Both forms over a strapdown that turns and accelerates.
+static void kf15(void)
+{
+    static ins_kf15_t f; // not on the stack of a small machine
+    static ins_kf15_ud_t f_ud;
+    static ins_strapdown_t s;
+    static ins_kf15_model_t m;
+    static const ins_real level[4] = {1, 0, 0, 0};
+    static const ins_real v[3] = {30, -20, 1};
+    static const ins_position_t at = {{INS_C(0.4), 2, 100}, {0, 0, 0}};
+    static const ins_kf15_sensors_t sensors = {INS_C(1e-4), INS_C(1e-3), INS_C(1e-4), 300, INS_C(1e-2), 200};
+    ins_real sigma[INS_KF15_N];
+    for (unsigned i = 0; i < INS_KF15_N; i++)
+    {
+        sigma[i] = INS_C(0.1);
+    }
+    same_begin("kf15");
+    same_integer((uint32_t)ins_strapdown_init(&s, INS_CONING_HIST2_OPT, INS_C(0.01), level, v, &at));
+    same_integer((uint32_t)ins_kf15_model_init(&m, INS_C(0.01), &sensors));
+    same_integer((uint32_t)ins_kf15_init(&f, sigma));
+    same_integer((uint32_t)ins_kf15_ud_init(&f_ud, sigma));
+    for (unsigned k = 0; k < STEPS; k++)
+    {
+        ins_increment_t x;
+        ins_real h[INS_KF15_N];
+        random_reals(INS_C(0.01), x.theta_b, 3);
+        random_reals(INS_C(0.2), x.v_b, 3);
+        random_reals(1, h, INS_KF15_N);
+        (void)ins_strapdown_step(&s, &x);
+        ins_kf15_model(&m, &s, x.v_b);
+        ins_kf15_propagate(&f, &m);
+        ins_kf15_ud_propagate(&f_ud, &m);
+        ins_innovation_t z = {random_real(1), 1, INS_KALMAN_GATE_99, 0};
+        ins_innovation_t z_ud = z;
+        if (k % 2 == 0)
+        {
+            same_integer((uint32_t)ins_kf15_update(&f, h, &z));
+            same_integer((uint32_t)ins_kf15_ud_update(&f_ud, h, &z_ud));
+        }
+        else
+        {
+            same_integer((uint32_t)ins_kf15_update_state(&f, k % INS_KF15_N, &z));
+            same_integer((uint32_t)ins_kf15_ud_update_state(&f_ud, k % INS_KF15_N, &z_ud));
+        }
+        same_real(z.nis);
+        same_real(z_ud.nis);
+        same_reals(f.K, INS_KF15_N);
+        same_reals(f_ud.K, INS_KF15_N);
+    }
+    same_reals(f.P, INS_KF15_N * INS_KF15_ROW);
+    ins_kf15_ud_covariance(&f_ud, f.P);
+    same_reals(f.P, INS_KF15_N * INS_KF15_ROW);
+    same_end();
+}
+
 static void pva(void)
 {
     static const ins_real var[3] = {100, 10, 1};
@@ -143,6 +198,7 @@ static void choice(void)
 void run_filters(void)
 {
     kalman();
+    kf15();
     pva();
     markov();
     fusion();

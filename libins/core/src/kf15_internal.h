@@ -1,49 +1,69 @@
 /// \file   kf15_internal.h
-/// \brief  Rows of I + F dt applied to a vector of the 15 errors, in place of calls. Frame: n (NED). SI, rad.
+/// \brief  Rows of I + F dt times a vector of the 15 errors, in place of calls. Frame: n (NED). SI, rad.
 ///
-/// x and y have their elements `dx` and `dy` apart: the columns and the rows of a matrix alike.
+/// Elements of x are d apart, so that columns and rows of a matrix serve alike. i is a constant where it is called.
 /// SPDX-License-Identifier: MIT
 #ifndef INS_KF15_INTERNAL_H_INCLUDED
 #define INS_KF15_INTERNAL_H_INCLUDED
-#include "ins/ins_math.h"
 #include "ins/kf15.h"
 
-/// y[3] = attitude rows.
-static inline void kf15_attitude(const ins_kf15_model_t* m, const ins_real* x, unsigned dx, ins_real* y, unsigned dy)
+/// (C_nb dt b)(i), b the first of three biases.
+static inline ins_real kf15_bias(const ins_kf15_model_t* m, unsigned i, const ins_real* b, unsigned d)
 {
-    const ins_real a[3] = {x[0], x[dx], x[2 * dx]};
-    const ins_real v[2] = {x[3 * dx], x[4 * dx]};
-    const ins_real b[3] = {x[9 * dx], x[10 * dx], x[11 * dx]};
-    const ins_real* w = m->turn;
-    const ins_real* C = m->C;
-    y[0] = a[0] + (w[2] * a[1] - w[1] * a[2]) - m->curve[1] * v[1] - (C[0] * b[0] + C[1] * b[1] + C[2] * b[2]);
-    y[dy] = a[1] + (w[0] * a[2] - w[2] * a[0]) + m->curve[0] * v[0] - (C[3] * b[0] + C[4] * b[1] + C[5] * b[2]);
-    y[2 * dy] = a[2] + (w[1] * a[0] - w[0] * a[1]) + m->curve[2] * v[1] - (C[6] * b[0] + C[7] * b[1] + C[8] * b[2]);
+    const ins_real* const C = m->C + 3 * i;
+    return C[0] * b[0] + C[1] * b[d] + C[2] * b[2 * d];
 }
 
-/// y[3] = velocity rows.
-static inline void kf15_velocity(const ins_kf15_model_t* m, const ins_real* x, unsigned dx, ins_real* y, unsigned dy)
+/// phi(i) - (w_in x phi + dw_en(dv) + C dbg)(i) dt
+static inline ins_real kf15_attitude(const ins_kf15_model_t* m, unsigned i, const ins_real* x, unsigned d)
 {
-    const ins_real a[3] = {x[0], x[dx], x[2 * dx]};
-    const ins_real v[3] = {x[3 * dx], x[4 * dx], x[5 * dx]};
-    const ins_real b[3] = {x[12 * dx], x[13 * dx], x[14 * dx]};
-    const ins_real* f = m->dv;
-    const ins_real* C = m->C;
-    const ins_real* V = m->coriolis;
-    y[0] = v[0] + (f[2] * a[1] - f[1] * a[2]) + (V[0] * v[0] + V[1] * v[1] + V[2] * v[2]) -
-           (C[0] * b[0] + C[1] * b[1] + C[2] * b[2]);
-    y[dy] = v[1] + (f[0] * a[2] - f[2] * a[0]) + (V[3] * v[0] + V[4] * v[1] + V[5] * v[2]) -
-            (C[3] * b[0] + C[4] * b[1] + C[5] * b[2]);
-    y[2 * dy] = v[2] + (f[1] * a[0] - f[0] * a[1]) + (V[6] * v[0] + V[7] * v[1] + m->fall * x[8 * dx]) -
-                (C[6] * b[0] + C[7] * b[1] + C[8] * b[2]);
+    const unsigned j = (i + 1) % 3;
+    const unsigned k = (i + 2) % 3;
+    const ins_real* const w = m->turn;
+    return x[i * d] + (w[k] * x[j * d] - w[j] * x[k * d]) + m->curve[i] * x[(i == 1 ? 3 : 4) * d] -
+           kf15_bias(m, i, x + 9 * d, d);
 }
 
-/// y[3] = position rows.
-static inline void kf15_position(const ins_kf15_model_t* m, const ins_real* x, unsigned dx, ins_real* y, unsigned dy)
+/// dv(i) + (phi x f - (2 w_ie + w_en) x dv - dw_en(dv) x v + 2 g/R dp_D - C dba)(i) dt
+static inline ins_real kf15_velocity(const ins_kf15_model_t* m, unsigned i, const ins_real* x, unsigned d)
 {
-    y[0] = x[6 * dx] + m->dt * x[3 * dx];
-    y[dy] = x[7 * dx] + m->dt * x[4 * dx];
-    y[2 * dy] = x[8 * dx] + m->dt * x[5 * dx];
+    const unsigned j = (i + 1) % 3;
+    const unsigned k = (i + 2) % 3;
+    const ins_real* const f = m->dv;
+    const ins_real* const V = m->coriolis + 3 * i;
+    return x[(3 + i) * d] + (f[k] * x[j * d] - f[j] * x[k * d]) +
+           (V[0] * x[3 * d] + V[1] * x[4 * d] + V[2] * x[(i == 2 ? 8 : 5) * d]) - kf15_bias(m, i, x + 12 * d, d);
+}
+
+/// dp(i) + dv(i) dt
+static inline ins_real kf15_position(const ins_kf15_model_t* m, unsigned i, const ins_real* x, unsigned d)
+{
+    return x[(6 + i) * d] + m->dt * x[(3 + i) * d];
+}
+
+/// The nine navigation rows of (I + F dt) P. Loops of one kind of row each: coefficients stay in registers.
+/// \param[in] P  15 rows of INS_KF15_ROW. \param[out] T  9 rows, `pitch` apart.
+static inline void kf15_turn(const ins_kf15_model_t* m, const ins_real* restrict P, ins_real* restrict T,
+                             unsigned pitch)
+{
+    for (unsigned j = 0; j < INS_KF15_ROW; j++)
+    {
+        T[0 * pitch + j] = kf15_attitude(m, 0, P + j, INS_KF15_ROW);
+        T[1 * pitch + j] = kf15_attitude(m, 1, P + j, INS_KF15_ROW);
+        T[2 * pitch + j] = kf15_attitude(m, 2, P + j, INS_KF15_ROW);
+    }
+    for (unsigned j = 0; j < INS_KF15_ROW; j++)
+    {
+        T[3 * pitch + j] = kf15_velocity(m, 0, P + j, INS_KF15_ROW);
+        T[4 * pitch + j] = kf15_velocity(m, 1, P + j, INS_KF15_ROW);
+        T[5 * pitch + j] = kf15_velocity(m, 2, P + j, INS_KF15_ROW);
+    }
+    for (unsigned j = 0; j < INS_KF15_ROW; j++)
+    {
+        T[6 * pitch + j] = kf15_position(m, 0, P + j, INS_KF15_ROW);
+        T[7 * pitch + j] = kf15_position(m, 1, P + j, INS_KF15_ROW);
+        T[8 * pitch + j] = kf15_position(m, 2, P + j, INS_KF15_ROW);
+    }
 }
 
 #endif // INS_KF15_INTERNAL_H_INCLUDED

@@ -12,6 +12,7 @@ ins_status_t ins_kf15_model_init(ins_kf15_model_t* self, ins_real dt, const ins_
     if (!(dt > 0 && dt <= INS_STRAPDOWN_PERIOD_MAX) || !(sensors->arw >= 0 && sensors->arw <= INS_REAL_MAX) ||
         !(sensors->vrw >= 0 && sensors->vrw <= INS_REAL_MAX) ||
         !(sensors->bg_sigma <= INS_REAL_MAX && sensors->ba_sigma <= INS_REAL_MAX) ||
+        !(sensors->bg_tau >= dt && sensors->ba_tau >= dt) ||
         ins_markov_init(&bg, dt, sensors->bg_tau, sensors->bg_sigma) != INS_OK ||
         ins_markov_init(&ba, dt, sensors->ba_tau, sensors->ba_sigma) != INS_OK)
     {
@@ -66,8 +67,8 @@ void ins_kf15_model(ins_kf15_model_t* self, const ins_strapdown_t* at, const ins
     const ins_real up = dt * INS_EARTH_RATE * s;
     const ins_real east = normal * v[1]; // w_en dt, about north
     const ins_real tilt = slope * v[1];  // and up
-    self->curve[0] = meridian;
-    self->curve[1] = normal;
+    self->curve[0] = -normal;
+    self->curve[1] = meridian;
     self->curve[2] = slope;
     self->turn[0] = north + east;
     self->turn[1] = -meridian * v[0];
@@ -82,7 +83,7 @@ void ins_kf15_model(ins_kf15_model_t* self, const ins_strapdown_t* at, const ins
     V[5] = 2 * north + east;
     V[6] = -2 * V[2];
     V[7] = -2 * self->turn[0];
-    self->fall = 2 * meridian * earth.gravity;
+    V[8] = 2 * meridian * earth.gravity;
 }
 
 void ins_kf15_transition(const ins_kf15_model_t* self, ins_real Phi[INS_KF15_N * INS_KF15_N])
@@ -90,18 +91,14 @@ void ins_kf15_transition(const ins_kf15_model_t* self, ins_real Phi[INS_KF15_N *
     for (unsigned j = 0; j < INS_KF15_N; j++)
     {
         ins_real unit[INS_KF15_N] = {0};
-        ins_real column[INS_KF15_N] = {0};
         unit[j] = 1;
-        kf15_attitude(self, unit, 1, column + INS_KF15_PHI, 1);
-        kf15_velocity(self, unit, 1, column + INS_KF15_V, 1);
-        kf15_position(self, unit, 1, column + INS_KF15_P, 1);
-        if (j >= INS_KF15_BG)
+        for (unsigned i = 0; i < 3; i++)
         {
-            column[j] = j < INS_KF15_BA ? self->bg.phi : self->ba.phi;
-        }
-        for (unsigned i = 0; i < INS_KF15_N; i++)
-        {
-            Phi[i * INS_KF15_N + j] = column[i];
+            Phi[(INS_KF15_PHI + i) * INS_KF15_N + j] = kf15_attitude(self, i, unit, 1);
+            Phi[(INS_KF15_V + i) * INS_KF15_N + j] = kf15_velocity(self, i, unit, 1);
+            Phi[(INS_KF15_P + i) * INS_KF15_N + j] = kf15_position(self, i, unit, 1);
+            Phi[(INS_KF15_BG + i) * INS_KF15_N + j] = self->bg.phi * unit[INS_KF15_BG + i];
+            Phi[(INS_KF15_BA + i) * INS_KF15_N + j] = self->ba.phi * unit[INS_KF15_BA + i];
         }
     }
 }

@@ -30,6 +30,24 @@ struct Symmetric
     }
 };
 
+struct Factors
+{
+    using State = ins_kf15_ud_t;
+    static constexpr const char* name = "Kf15Ud";
+    static constexpr const char* update_name = "Kf15Ud.update";
+    static constexpr const char* state_name = "Kf15Ud.update_state";
+    static constexpr auto init = ins_kf15_ud_init;
+    static constexpr auto propagate = ins_kf15_ud_propagate;
+    static constexpr auto update = ins_kf15_ud_update;
+    static constexpr auto update_state = ins_kf15_ud_update_state;
+    static void covariance(const State& self, ins_real* P)
+    {
+        ins_kf15_t full;
+        ins_kf15_ud_covariance(&self, full.P);
+        Symmetric::covariance(full, P);
+    }
+};
+
 void judge(const Call& call, ins_status_t status, const ins_innovation_t& z)
 {
     const auto text = [&] { return "nis " + std::to_string(z.nis) + ", gate " + std::to_string(z.gate) + ": "; };
@@ -137,6 +155,7 @@ void bind_kf15(nb::module_& m)
     bind_model(m);
     bind_form<Symmetric>(m, "Covariance of the 15 errors of a strapdown: attitude, velocity, position, gyro and "
                             "accelerometer bias.");
+    bind_form<Factors>(m, "The same as U D U': for float, and large ranges of variance.");
 }
 
 } // namespace libins

@@ -1166,6 +1166,25 @@ impl Default for ins_kf15_t {
         }
     }
 }
+#[doc = "The same as P = U D U'. Start with ins_kf15_ud_init()."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_kf15_ud_t {
+    #[doc = "by columns: U(i,j) at INS_KF15_ROW j + i; 1 on the diagonal, 0 below"]
+    pub U: [ins_real; 240usize],
+    pub D: [ins_real; 15usize],
+    #[doc = "as in ins_kf15_t"]
+    pub K: [ins_real; 16usize],
+}
+impl Default for ins_kf15_ud_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
 #[doc = "What the sensors add."]
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
@@ -1193,12 +1212,10 @@ pub struct ins_kf15_model_t {
     pub turn: [ins_real; 3usize],
     #[doc = "f_n dt [m/s]"]
     pub dv: [ins_real; 3usize],
-    #[doc = "dt/(R_M + h), dt/(R_N + h), dt tan(lat)/(R_N + h) [s/m]"]
+    #[doc = "-dt/(R_N + h), dt/(R_M + h), dt tan(lat)/(R_N + h) [s/m]"]
     pub curve: [ins_real; 3usize],
-    #[doc = "d dv / d v, rows N, E, and D without its last element"]
-    pub coriolis: [ins_real; 8usize],
-    #[doc = "2 g dt/R [1/s]"]
-    pub fall: ins_real,
+    #[doc = "d dv / d v by rows; in place of its last element, which is 0, 2 g dt/R [1/s]"]
+    pub coriolis: [ins_real; 9usize],
     #[doc = "[s]"]
     pub dt: ins_real,
     #[doc = "[rad^2]"]
@@ -1213,7 +1230,7 @@ extern "C" {
     pub fn ins_kf15_init(self_: *mut ins_kf15_t, sigma: *const ins_real) -> ins_status_t;
 }
 extern "C" {
-    #[doc = "\\param[in] dt  of one step [s], > 0. \\return INS_OK; INS_E_RANGE: dt, a noise or a time constant is out of range."]
+    #[doc = "\\param[in] dt  of one step [s], > 0. \\return INS_OK; INS_E_RANGE: dt, a noise or a time constant is out of range (those from dt)."]
     pub fn ins_kf15_model_init(self_: *mut ins_kf15_model_t, dt: ins_real, sensors: *const ins_kf15_sensors_t) -> ins_status_t;
 }
 extern "C" {
@@ -1237,6 +1254,27 @@ extern "C" {
 extern "C" {
     #[doc = "The same for h = 1 at index, 0 elsewhere. \\return also INS_E_RANGE for an index above 14."]
     pub fn ins_kf15_update_state(self_: *mut ins_kf15_t, index: ::core::ffi::c_uint, z: *mut ins_innovation_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "As ins_kf15_init()."]
+    pub fn ins_kf15_ud_init(self_: *mut ins_kf15_ud_t, sigma: *const ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "As ins_kf15_propagate(), on the factors: the nine navigation rows by weighted Gram-Schmidt, the noise of each bias by a"]
+    #[doc = "rank-one change."]
+    pub fn ins_kf15_ud_propagate(self_: *mut ins_kf15_ud_t, model: *const ins_kf15_model_t);
+}
+extern "C" {
+    #[doc = "As ins_kf15_update() (Bierman)."]
+    pub fn ins_kf15_ud_update(self_: *mut ins_kf15_ud_t, h: *const ins_real, z: *mut ins_innovation_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "As ins_kf15_update_state()."]
+    pub fn ins_kf15_ud_update_state(self_: *mut ins_kf15_ud_t, index: ::core::ffi::c_uint, z: *mut ins_innovation_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\param[out] P  [INS_KF15_N INS_KF15_ROW] as in ins_kf15_t."]
+    pub fn ins_kf15_ud_covariance(self_: *const ins_kf15_ud_t, P: *mut ins_real);
 }
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]

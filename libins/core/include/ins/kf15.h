@@ -53,6 +53,14 @@ typedef struct ins_kf15_t
     ins_real K[INS_KF15_ROW];              ///< gain of the last update that was not refused
 } ins_kf15_t;
 
+/// The same as P = U D U'. Start with ins_kf15_ud_init().
+typedef struct ins_kf15_ud_t
+{
+    ins_real U[INS_KF15_N * INS_KF15_ROW]; ///< by columns: U(i,j) at INS_KF15_ROW j + i; 1 on the diagonal, 0 below
+    ins_real D[INS_KF15_N];
+    ins_real K[INS_KF15_ROW]; ///< as in ins_kf15_t
+} ins_kf15_ud_t;
+
 /// What the sensors add.
 typedef struct ins_kf15_sensors_t
 {
@@ -70,9 +78,8 @@ typedef struct ins_kf15_model_t
     ins_real C[9];        ///< C_nb dt [s]
     ins_real turn[3];     ///< w_in_n dt [rad]
     ins_real dv[3];       ///< f_n dt [m/s]
-    ins_real curve[3];    ///< dt/(R_M + h), dt/(R_N + h), dt tan(lat)/(R_N + h) [s/m]
-    ins_real coriolis[8]; ///< d dv / d v, rows N, E, and D without its last element
-    ins_real fall;        ///< 2 g dt/R [1/s]
+    ins_real curve[3];    ///< -dt/(R_N + h), dt/(R_M + h), dt tan(lat)/(R_N + h) [s/m]
+    ins_real coriolis[9]; ///< d dv / d v by rows; in place of its last element, which is 0, 2 g dt/R [1/s]
     ins_real dt;          ///< [s]
     ins_real q_phi;       ///< [rad^2]
     ins_real q_v;         ///< [m^2/s^2]
@@ -81,7 +88,7 @@ typedef struct ins_kf15_model_t
 
 /// \param[in] sigma  [15] standard deviations of the start. \return INS_OK; INS_E_RANGE: one is negative or not a number.
 INS_API ins_status_t ins_kf15_init(ins_kf15_t* self, const ins_real sigma[INS_KF15_N]);
-/// \param[in] dt  of one step [s], > 0. \return INS_OK; INS_E_RANGE: dt, a noise or a time constant is out of range.
+/// \param[in] dt  of one step [s], > 0. \return INS_OK; INS_E_RANGE: dt, a noise or a time constant is out of range (those from dt).
 INS_API ins_status_t ins_kf15_model_init(ins_kf15_model_t* self, ins_real dt, const ins_kf15_sensors_t* sensors);
 /// F dt of the step that ended at `at`. \param[in] at  attitude, velocity and position. \param[in] v_b  [3] of that step [m/s].
 INS_API void ins_kf15_model(ins_kf15_model_t* self, const ins_strapdown_t* at, const ins_real v_b[3]);
@@ -95,6 +102,18 @@ INS_API void ins_kf15_propagate(ins_kf15_t* self, const ins_kf15_model_t* model)
 INS_API ins_status_t ins_kf15_update(ins_kf15_t* self, const ins_real h[INS_KF15_N], ins_innovation_t* z);
 /// The same for h = 1 at index, 0 elsewhere. \return also INS_E_RANGE for an index above 14.
 INS_API ins_status_t ins_kf15_update_state(ins_kf15_t* self, unsigned index, ins_innovation_t* z);
+
+/// As ins_kf15_init().
+INS_API ins_status_t ins_kf15_ud_init(ins_kf15_ud_t* self, const ins_real sigma[INS_KF15_N]);
+/// As ins_kf15_propagate(), on the factors: the nine navigation rows by weighted Gram-Schmidt, the noise of each bias by a
+/// rank-one change.
+INS_API void ins_kf15_ud_propagate(ins_kf15_ud_t* self, const ins_kf15_model_t* model);
+/// As ins_kf15_update() (Bierman).
+INS_API ins_status_t ins_kf15_ud_update(ins_kf15_ud_t* self, const ins_real h[INS_KF15_N], ins_innovation_t* z);
+/// As ins_kf15_update_state().
+INS_API ins_status_t ins_kf15_ud_update_state(ins_kf15_ud_t* self, unsigned index, ins_innovation_t* z);
+/// \param[out] P  [INS_KF15_N INS_KF15_ROW] as in ins_kf15_t.
+INS_API void ins_kf15_ud_covariance(const ins_kf15_ud_t* self, ins_real P[INS_KF15_N * INS_KF15_ROW]);
 
 #ifdef __cplusplus
 }
