@@ -1,11 +1,14 @@
 /// \file   calib_module.cpp
 /// \brief  The Python module libins._calib over libins_calib: NumPy arrays of float64, one row a pose. SPDX-License-Identifier: MIT
 #include "ins_calib/full.h"
+#include "ins_calib/triad.h"
 #include <array>
 #include <memory>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -182,6 +185,66 @@ nb::dict full(const In& sensors, const In& poses, const In& readings, double g, 
     d["iterations"] = out.iterations;
     return d;
 }
+nb::dict axes(const ins_calib_axes_t& a)
+{
+    nb::dict d;
+    d["matrix"] = array(a.matrix, {3, 3});
+    d["bias"] = array(a.bias, {3});
+    d["p"] = array(a.p, {INS_CALIB_TRIAD_N});
+    d["covariance"] = array(a.covariance, {INS_CALIB_TRIAD_N, INS_CALIB_TRIAD_N});
+    d["condition"] = a.condition;
+    d["rms"] = a.rms;
+    d["rms_scale"] = a.rms_scale;
+    return d;
+}
+
+nb::dict triad(const In& accel, const std::optional<In>& gyro, double period_s, double g, double initial_s,
+               double window_s, double gyro_scale, unsigned part, unsigned parts)
+{
+    const size_t samples = rows(accel, "accel", 3);
+    if (gyro && rows(*gyro, "gyro", 3) != samples)
+    {
+        throw std::invalid_argument("gyro: as many rows as accel are needed");
+    }
+    const ins_calib_triad_t in = {
+        samples, accel.data(), gyro ? gyro->data() : nullptr, period_s, g, initial_s, window_s, gyro_scale,
+        part,    parts};
+    ins_calib_triad_result_t out{};
+    out.capacity = samples;
+    std::vector<size_t> first(samples), last(samples);
+    std::vector<double> residual(samples), angle(samples);
+    out.first = first.data();
+    out.last = last.data();
+    out.residual = residual.data();
+    out.angle = angle.data();
+    Reason why;
+    int status = 0;
+    {
+        const nb::gil_scoped_release release;
+        status = ins_calib_triad(&in, &out, why.text.data(), why.text.size());
+    }
+    why.check(status);
+    nb::list poses;
+    for (size_t k = 0; k < out.poses; k++)
+    {
+        poses.append(nb::make_tuple(first[k], last[k]));
+    }
+    nb::dict d;
+    d["accel"] = axes(out.accel);
+    if (gyro)
+    {
+        d["gyro"] = axes(out.gyro);
+        d["g_sensitivity"] = array(out.g_sensitivity, {3, 3});
+        d["bias_rms"] = out.bias_rms;
+        d["bias_rms_constant"] = out.bias_rms_constant;
+        d["angle"] = array(angle.data(), {out.poses});
+    }
+    d["rms_raw"] = out.rms_raw;
+    d["threshold"] = out.threshold;
+    d["poses"] = poses;
+    d["residual"] = array(residual.data(), {out.poses});
+    return d;
+}
 } // namespace
 
 NB_MODULE(_calib, m)
@@ -204,4 +267,15 @@ NB_MODULE(_calib, m)
           "The full model. sensors: (n, 13) u0, e1, e2, r0 [m], sigma. poses: (k, 9) up, w [rad/s], wd [rad/s^2]. "
           "readings: (k, n). fixed: bits of FULL_NAMES that are not estimated. Gives {p (n, 8), covariance, attitude, "
           "residual, condition, chi2, chi2_expected, from_prior, iterations}.");
+    m.attr("ACCEL_NAMES") =
+        nb::make_tuple("alpha_yz", "alpha_zy", "alpha_zx", "s_x", "s_y", "s_z", "b_x", "b_y", "b_z");
+    m.attr("GYRO_NAMES") =
+        nb::make_tuple("gamma_yz", "gamma_zy", "gamma_xz", "gamma_zx", "gamma_xy", "gamma_yx", "s_x", "s_y", "s_z");
+    m.def(
+        "triad", triad, "accel"_a, "gyro"_a.none(), "period_s"_a, "g"_a, "initial_s"_a, "window_s"_a,
+        "gyro_scale"_a = 0.0, "part"_a = 0U, "parts"_a = 1U,
+        "A triad by still poses: accel (n, 3), gyro (n, 3) or None. Of every `parts` poses the part-th is used. Gives "
+        "{accel, gyro: {matrix, bias, p, covariance, condition, rms, rms_scale}, rms_raw, threshold, bias_spread, "
+        "poses, "
+        "residual, angle}; see ins_calib/triad.h.");
 }
