@@ -75,6 +75,8 @@ static int recall(const ins_gps_ins_t* self, int64_t t_ns, const ins_gps_ins_pas
     if (t_ns >= now->t_ns)
     {
         between(now, now, t_ns, then);
+        ins_vec_add_scaled(then->v_n, (ins_real)(t_ns - now->t_ns) * NS_TO_S / self->nav.half_period,
+                           self->nav.half_dv);
         return (ins_real)(t_ns - now->t_ns) * NS_TO_S <= AHEAD * self->dt;
     }
     for (unsigned k = 0; k < self->held; k++)
