@@ -83,3 +83,51 @@ def test_refusals_name_the_argument():
     }.items():
         with pytest.raises(ValueError, match=re.escape(text)):
             call()
+
+
+def test_a_body_driven_by_a_function_is_integrated():
+    rate = 0.3
+
+    def spin(t, p_n, v_n, q_nb):
+        return (0.0, 0.0, rate), (0.0, 0.0, -9.8)
+
+    def quarter(t, p_n, v_n, q_nb):
+        return q_nb[3] - math.sin(math.pi / 4)
+
+    site = _truth.Site(0.43, 2.11)
+    body = _truth.track_body(site, spin, (0, 0, 0), (0, 0, 0), (1, 0, 0, 0), 0.0, 20.0, 1e-12, [(quarter, 1, False)])
+    t = np.linspace(0.0, 20.0, 100)
+    q = body.at(t)["q_nb"]
+    assert np.abs(q[:, 0] - np.cos(0.5 * rate * t)).max() < 1e-10
+    (instant, event, direction), *_ = _truth.happenings(body)
+    assert (event, direction) == (0, 1)
+    assert abs(instant - math.pi / 2 / rate) < 1e-9
+    theta, _ = body.increments(t)
+    assert np.abs(theta[:, 2] - rate * np.diff(t)).max() < 1e-14
+
+
+def test_a_body_driven_by_manoeuvres_or_rows_is_the_same():
+    site = _truth.Site(0.43, 2.11, 0.0, "normal", rotating=True)
+    plan = [("hold", 2.0, 0.0), ("turn", 5.0, 1.0), ("roll", 3.0, 0.5)]
+    start = ((0, 0, 0), (20.0, 0, 0), (1, 0, 0, 0), 0.0)
+    one = _truth.track_body(site, _truth.drive_manoeuvres(site, plan, 0.0, 20.0), *start, 12.0)
+    t = np.arange(0.0, 12.0, 0.01)
+    sensed = one.at(t)
+    two = _truth.track_body(site, _truth.drive_table(t, sensed["w_ib_b"], sensed["f_b"]), *start, 11.9)
+    at = np.array([11.5])
+    assert np.abs(one.at(at)["p_n"] - two.at(at)["p_n"]).max() < 1e-4
+
+
+def test_what_a_drive_raises_comes_out_and_refusals_say_why():
+    site = _truth.Site(0.43, 2.11)
+    rest = ((0, 0, 0), (0, 0, 0), (1, 0, 0, 0), 0.0, 1.0)
+
+    def broken(t, p_n, v_n, q_nb):
+        raise KeyError("of the drive")
+
+    with pytest.raises(KeyError, match="of the drive"):
+        _truth.track_body(site, broken, *rest)
+    with pytest.raises(ValueError, match=re.escape("tolerance is 1, give 1e-14 to 0.001")):
+        _truth.track_body(site, broken, *rest, 1.0)
+    with pytest.raises(ValueError, match="manoeuvre: found 'fly', but hold or accelerate or turn"):
+        _truth.drive_manoeuvres(site, [("fly", 1.0, 1.0)], 0.0, 0.0)

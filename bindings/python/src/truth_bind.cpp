@@ -54,13 +54,6 @@ ins_track_speed_t speed_of(const Speed& s)
 
 constexpr std::array<std::pair<const char*, ins_track_gravity_t>, 2> gravities = {
     {{"thesis", INS_TRACK_G_THESIS}, {"normal", INS_TRACK_G_NORMAL}}};
-template <size_t n> std::array<double, n> copied(const double (&values)[n])
-{
-    std::array<double, n> out{};
-    std::copy(values, values + n, out.begin());
-    return out;
-}
-
 nb::dict track_at(const Track& self, double t)
 {
     ins_track_state_t s;

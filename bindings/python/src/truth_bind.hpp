@@ -3,6 +3,7 @@
 #pragma once
 #include "ins_truth/gps.h"
 #include "ins_truth/track.h"
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -67,6 +68,13 @@ inline int64_t picoseconds(const char* key, double s)
         throw std::invalid_argument(std::string(key) + ": 0 to 1e6 s is needed");
     }
     return static_cast<int64_t>(std::floor(s * 1e12 + 0.5));
+}
+
+template <size_t n> std::array<double, n> copied(const double (&values)[n])
+{
+    std::array<double, n> out{};
+    std::copy(values, values + n, out.begin());
+    return out;
 }
 
 using Instants = nanobind::ndarray<const double, nanobind::ndim<1>, nanobind::c_contig, nanobind::device::cpu>;

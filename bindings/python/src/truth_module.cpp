@@ -2,6 +2,7 @@
 /// \brief  The Python module libins._truth: known motions and trajectories, GPS fixes, errors of an IMU. SPDX-License-Identifier: MIT
 #include "ins_truth/imu.h"
 #include "truth_bind.hpp"
+#include "truth_body.hpp"
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -175,6 +176,7 @@ NB_MODULE(_truth, m)
     libins::bind_motions(m);
     libins::bind_tracks(m);
     libins::bind_gps(m);
+    libins::bind_bodies(m);
     bind_config(m);
     bind_errors(m);
     m.def(
