@@ -13,7 +13,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from libins import campaign, debug_cli, endpoint, report, run, scenario, seeing
+from libins import campaign, debug_cli, endpoint, report, run, scenario, seeing, sim_cli
 from libins.errors import CrashError, UsageError
 from libins.program import CONSOLES, Program, address, exit_place
 from libins.tables import PACKAGE, Loaded
@@ -113,6 +113,8 @@ def parser() -> argparse.ArgumentParser:
         "2 bad usage, or what quit says.",
     )
     debug_cli.options(g)
+
+    sim_cli.options(commands.add_parser("sim", help="a known motion and what sensors on it say, as CSV"))
 
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
 
@@ -380,7 +382,13 @@ def main(arguments: list[str] | None = None) -> int:
             path = navd_path()
             os.execv(path, [str(path), *arguments[1:]])
         options = parser().parse_args(arguments)
-        commands = {"run": _run_command, "campaign": campaign.command, "debug": debug_cli.run, "sub": _sub_command}
+        commands = {
+            "run": _run_command,
+            "campaign": campaign.command,
+            "debug": debug_cli.run,
+            "sim": sim_cli.run,
+            "sub": _sub_command,
+        }
         return commands[options.command](options)
     except UsageError as error:
         print(f"ins: {error}", file=sys.stderr)

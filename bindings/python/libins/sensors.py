@@ -3,6 +3,8 @@
 import math
 from typing import Any
 
+import numpy as np
+
 from libins import _run
 from libins.motions import motion_of
 from libins.net_scenario import NetScenario
@@ -17,29 +19,43 @@ OF_GPS = ("latency_s", "white_m", "markov_m", "markov_tau_s", "velocity_m_s", "s
 def track_of(scenario: NetScenario | Scenario) -> Any:
     """Where the vehicle goes. Raises ValueError."""
     track: Track = scenario.tables.track
-    attitude = motion_of(scenario) if track.by_motion else None
+    return built_track(_run, track, motion_of(scenario) if track.by_motion else None, scenario.path_csv)
+
+
+def site_of(ins: Any, track: Track) -> Any:
+    """The origin, of the module ins."""
     latitude, longitude = math.radians(track.latitude_deg), math.radians(track.longitude_deg)
-    site = _run.Site(latitude, longitude, track.height_m, track.gravity, track.rotating)
+    return ins.Site(latitude, longitude, track.height_m, track.gravity, track.rotating)
+
+
+def built_track(ins: Any, track: Track, attitude: Any, path_csv: np.ndarray[Any, Any] | None) -> Any:
+    """A track of the module ins, libins._run or libins._truth; path_csv: its file. Raises ValueError."""
+    site = site_of(ins, track)
     cruise_s = math.inf if track.cruise_s is None else track.cruise_s
     speed = (track.speed_m_s, track.start_s, track.accelerate_s, cruise_s, track.brake_s)
     if track.kind == "line":
-        return _run.track_line(site, track.heading_rad, track.climb_rad, speed, attitude)
+        return ins.track_line(site, track.heading_rad, track.climb_rad, speed, attitude)
     if track.kind == "circle":
-        return _run.track_circle(site, track.heading_rad, track.radius_m, speed, attitude)
+        return ins.track_circle(site, track.heading_rad, track.radius_m, speed, attitude)
     if track.kind == "eight":
-        return _run.track_eight(site, track.heading_rad, track.length_m, track.width_m, speed, attitude)
+        return ins.track_eight(site, track.heading_rad, track.length_m, track.width_m, speed, attitude)
     if track.kind == "csv":
-        assert scenario.path_csv is not None
-        t, north, east, up = scenario.path_csv.T.tolist()
-        return _run.track_waypoints(site, t, north, east, up, attitude)
-    return _run.track_still(site, attitude)
+        assert path_csv is not None
+        t, north, east, up = path_csv.T.tolist()
+        return ins.track_waypoints(site, t, north, east, up, attitude)
+    return ins.track_still(site, attitude)
 
 
 def gps_of(table: Gps, seed: int) -> Any:
     """The receiver; None: never a fix."""
+    return built_gps(_run, table, seed)
+
+
+def built_gps(ins: Any, table: Gps, seed: int) -> Any:
+    """The receiver of the module ins; None: never a fix."""
     if table.preset == "none":
         return None
-    gps = _run.gps_ideal() if table.preset == "ideal" else _run.gps_default()
+    gps = ins.gps_ideal() if table.preset == "ideal" else ins.gps_default()
     gps.seed = seed
     for key in OF_GPS:
         if (value := getattr(table, key)) is not None:

@@ -86,7 +86,8 @@ ins_imu_t errors_of(const Config& config)
     return imu;
 }
 
-nb::dict apply(ins_imu_t& self, const Rows3& theta, const Rows3& v, double dt_s, double above_k)
+/// \param[in] above_k  of each row, or one for all
+nb::dict apply(ins_imu_t& self, const Rows3& theta, const Rows3& v, double dt_s, const std::vector<double>& above_k)
 {
     const size_t rows = theta.shape(0);
     if (v.shape(0) != rows)
@@ -98,11 +99,17 @@ nb::dict apply(ins_imu_t& self, const Rows3& theta, const Rows3& v, double dt_s,
     {
         throw std::invalid_argument("dt_s: above 0 and up to 1e6 is needed");
     }
+    if (above_k.size() != rows && above_k.size() != 1)
+    {
+        throw std::invalid_argument("above_k has " + std::to_string(above_k.size()) + " numbers, give " +
+                                    std::to_string(rows) + " or one");
+    }
     std::array<std::vector<double>, 4> out;
     out.fill(std::vector<double>(3 * rows));
     for (size_t k = 0; k < rows; k++)
     {
-        ins_imu_apply(&self, dt_s, above_k, theta.data() + 3 * k, v.data() + 3 * k, &out[0][3 * k], &out[1][3 * k]);
+        ins_imu_apply(&self, dt_s, above_k[above_k.size() == 1 ? 0 : k], theta.data() + 3 * k, v.data() + 3 * k,
+                      &out[0][3 * k], &out[1][3 * k]);
         std::copy(self.gyro.bias, self.gyro.bias + 3, &out[2][3 * k]);
         std::copy(self.accel.bias, self.accel.bias + 3, &out[3][3 * k]);
     }
@@ -121,8 +128,9 @@ void bind_errors(nb::module_& m)
         .def(
             "__init__", [](ins_imu_t* self, const Config& config) { new (self) ins_imu_t(errors_of(config)); },
             "config"_a)
-        .def("apply", apply, "theta"_a, "v"_a, "dt_s"_a, "above_k"_a = 0.0,
-             "The next samples: exact increments of dt_s seconds in; theta, v with errors and the true bias of each "
+        .def("apply", apply, "theta"_a, "v"_a, "dt_s"_a, "above_k"_a = std::vector<double>{0.0},
+             "The next samples: exact increments of dt_s seconds in, and the temperature above that of calibration, "
+             "one or one a row [K]; theta, v with errors and the true bias of each "
              "sample out.")
         .def_prop_ro("gyro_bias",
                      [](const ins_imu_t& self) {
