@@ -223,8 +223,8 @@ class Sim:
         else:
             plan = [(m.name, m.duration_s, m.amount) for m in tables.manoeuvre]
             drive = self._guard(("manoeuvre",), lambda: _truth.drive_manoeuvres(site, plan, 0.0, body.speed_m_s))
-        sines = [(angle, 0.0, 0.0, 0.0) for angle in (body.heading_rad, body.pitch_rad, body.roll_rad)]
-        q = self._guard(("body",), lambda: _truth.motion_euler(*sines, 0.0)).attitude(0.0)
+        yaw, pitch, roll = ((angle, 0.0, 0.0, 0.0) for angle in (body.heading_rad, body.pitch_rad, body.roll_rad))
+        q = self._guard(("body",), lambda: _truth.motion_euler(yaw, pitch, roll, 0.0)).attitude(0.0)
         ahead = np.array(
             [1 - 2 * (q[2] ** 2 + q[3] ** 2), 2 * (q[1] * q[2] + q[0] * q[3]), 2 * (q[1] * q[3] - q[0] * q[2])]
         )
