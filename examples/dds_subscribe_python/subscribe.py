@@ -1,0 +1,68 @@
+"""Prints navigation states that arrive over DDS. Of libins it has the layout of a type, the rest is PyPI's cyclonedds.
+
+pip install cyclonedds; python subscribe.py [DOMAIN [COUNT]]
+"""
+# SPDX-License-Identifier: MIT
+
+import sys
+from dataclasses import dataclass
+
+from cyclonedds.core import Policy, Qos
+from cyclonedds.domain import Domain, DomainParticipant
+from cyclonedds.idl import IdlStruct, annotations, types
+from cyclonedds.sub import DataReader
+from cyclonedds.topic import Topic
+from cyclonedds.util import duration
+
+LOOPBACK = """<CycloneDDS><Domain><General><Interfaces><NetworkInterface name="lo" multicast="false"/></Interfaces>
+<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>
+<MaxAutoParticipantIndex>60</MaxAutoParticipantIndex><Peers><Peer address="127.0.0.1"/></Peers></Discovery>
+</Domain></CycloneDDS>"""
+
+
+# As in share/libins/idl/libins.idl, which has the units. A layout that differs gets no samples: DDS compares the types.
+@dataclass
+@annotations.final
+class NavCounts(IdlStruct, typename="libins.NavCounts"):
+    accepted: types.uint64
+    lost: types.uint64
+    invalid: types.uint64
+    duplicates: types.uint64
+    corrupt: types.uint64
+    timeouts: types.uint64
+    stray: types.uint64
+
+
+@dataclass
+@annotations.final
+class NavState(IdlStruct, typename="libins.NavState"):
+    source: types.bounded_str[63]
+    annotations.key("source")
+    published_ns: types.int64
+    index: types.uint64
+    t_s: types.float64
+    q_nb: types.array[types.float64, 4]
+    euler_rad: types.array[types.float64, 3]
+    w_ib_b: types.array[types.float64, 3]
+    dtheta_b: types.array[types.float64, 3]
+    seq: types.uint32
+    bridged: types.uint32
+    status: types.uint32
+    used: types.uint64
+    missed: types.uint64
+    counts: NavCounts
+
+
+domain = int(sys.argv[1]) if len(sys.argv) > 1 else 0
+left = int(sys.argv[2]) if len(sys.argv) > 2 else -1
+configured = Domain(domain, LOOPBACK)  # before the participant, and kept
+qos = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepLast(100))
+participant = DomainParticipant(domain)
+reader = DataReader(participant, Topic(participant, "libins/nav_state", NavState), qos=qos)
+for state in reader.take_iter(timeout=duration(seconds=10)):
+    roll, pitch, yaw = state.euler_rad
+    print(f"{state.source} {state.index}: roll {roll:.6f} pitch {pitch:.6f} yaw {yaw:.6f} rad", flush=True)
+    left -= 1
+    if left == 0:
+        break
+sys.exit(left > 0)
