@@ -18,4 +18,7 @@ static inline void strapdown_sin_cos(const ins_strapdown_t* self, ins_real d, in
 /// Moves the anchor to the position, and makes its sine and cosine.
 void ins_strapdown_anchor(ins_strapdown_t* self);
 
+/// Truth = estimate + x. \param[in] x  [9] attitude in n [rad], velocity [m/s], position north, east, down [m].
+void ins_strapdown_correct(ins_strapdown_t* self, const ins_real x[9]);
+
 #endif // INS_STRAPDOWN_INTERNAL_H_INCLUDED

@@ -63,6 +63,24 @@ ins_status_t ins_strapdown_init(ins_strapdown_t* self, int form, ins_real period
     return INS_OK;
 }
 
+void ins_strapdown_correct(ins_strapdown_t* self, const ins_real x[9])
+{
+    ins_real dq[4];
+    ins_real s;
+    ins_real c;
+    earth_t earth;
+    if (ins_quat_from_rotvec(x, dq) == INS_OK)
+    {
+        ins_quat_mul(dq, self->sculling.q_nb, self->sculling.q_nb);
+    }
+    strapdown_sin_cos(self, self->position.offset[0], &s, &c);
+    earth_at(s, self->position.anchor[2] + self->position.offset[2], &earth);
+    ins_vec_add_scaled(self->v_n, 1, x + 3);
+    self->position.offset[0] += x[6] / earth.meridian;
+    self->position.offset[1] += x[7] / (earth.normal * c);
+    self->position.offset[2] -= x[8];
+}
+
 void ins_strapdown_point(const ins_strapdown_t* self, const ins_real l_b[3], const ins_real w_ib_b[3], ins_real v_n[3],
                          ins_position_t* position)
 {

@@ -17,6 +17,8 @@ pub const INS_GPS_DR_HEADINGS: u32 = 8;
 pub const INS_KF15_N: u32 = 15;
 pub const INS_KF15_ROW: u32 = 16;
 pub const INS_GPS_INS_PAST: u32 = 8;
+pub const INS_SIXACC_MAX: u32 = 12;
+pub const INS_GYRO_FREE_N: u32 = 18;
 pub const INS_HS_BLOCK_MAX: u32 = 32;
 pub const INS_HS_REQUEST: u32 = 170;
 pub const INS_HS_READY: u32 = 187;
@@ -39,7 +41,6 @@ pub const INS_SELFTEST_STEP: u32 = 4;
 pub const INS_SELFTEST_FITER: u32 = 8;
 pub const INS_SELFTEST_RATES: u32 = 16;
 pub const INS_SELFTEST_FIXED: u32 = 32;
-pub const INS_SIXACC_MAX: u32 = 12;
 pub const INS_TM_ORDER: u32 = 6;
 pub const INS_VERSION_MAJOR: u32 = 0;
 pub const INS_VERSION_MINOR: u32 = 1;
@@ -1538,6 +1539,204 @@ extern "C" {
     #[doc = "The answer and how sure it is, of the last sample and measurement."]
     pub fn ins_gps_ins_state(self_: *const ins_gps_ins_t, state: *mut ins_gps_ins_state_t);
 }
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_accel_t {
+    #[doc = "in units of the reading"]
+    pub bias: ins_real,
+    #[doc = "reading per m/s^2, in b"]
+    pub axis: [ins_real; 3usize],
+    #[doc = "place [m], in b"]
+    pub r: [ins_real; 3usize],
+}
+#[doc = "Geometry, and the state of the rate's integration. Owned by the caller."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_sixacc_t {
+    pub count: uint_least8_t,
+    pub started: uint_least8_t,
+    pub period_s: ins_real,
+    pub bias: [ins_real; 12usize],
+    #[doc = "readings less biases -> wd, f"]
+    pub inverse: [[ins_real; 12usize]; 6usize],
+    #[doc = "wx wx, wy wy, wz wz, wx wy, wx wz, wy wz -> what they add to wd, f"]
+    pub product: [[ins_real; 6usize]; 6usize],
+    #[doc = "rate at the last sample [rad/s]; set it to start with a known one"]
+    pub w_ib_b: [ins_real; 3usize],
+    #[doc = "inverse times the last sample"]
+    pub linear: [ins_real; 6usize],
+    #[doc = "angular acceleration at the last sample [rad/s^2]"]
+    pub wd_ib_b: [ins_real; 3usize],
+}
+extern "C" {
+    #[doc = "The paper's six, arm rho [m]. \\param[out] accels  [6]."]
+    pub fn ins_sixacc_paper(rho: ins_real, accels: *mut ins_accel_t);
+}
+extern "C" {
+    #[doc = "Rate 0. \\return INS_OK; INS_E_RANGE unless 6 <= count <= INS_SIXACC_MAX, period_s > 0, all numbers finite and the six unknowns"]
+    #[doc = "observable."]
+    pub fn ins_sixacc_init(
+        self_: *mut ins_sixacc_t,
+        count: ::core::ffi::c_uint,
+        accels: *const ins_accel_t,
+        period_s: ins_real,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "One instant, for a known rate. \\param[in] readings  [count]. \\param[out] wd_ib_b  [3] [rad/s^2]. \\param[out] f_b  [3] [m/s^2]."]
+    pub fn ins_sixacc_resolve(
+        self_: *const ins_sixacc_t,
+        readings: *const ins_real,
+        w_ib_b: *const ins_real,
+        wd_ib_b: *mut ins_real,
+        f_b: *mut ins_real,
+    );
+}
+extern "C" {
+    #[doc = "Next sample: rate by the trapezoid of the angular acceleration, products of the rate taken at mid-interval."]
+    #[doc = "\\param[in] readings  [count]. \\param[out] increment  over the last period; zero for the first sample."]
+    #[doc = "\\return INS_OK; INS_S_START for the first sample; INS_E_RANGE for NaN or infinity, and then self is unchanged."]
+    pub fn ins_sixacc_step(self_: *mut ins_sixacc_t, readings: *const ins_real, increment: *mut ins_increment_t) -> ins_status_t;
+}
+#[doc = "Linear map of accelerometers from readings in known attitudes: P = map[0] + map[1..3] . a, by least squares on [1, a], taken in"]
+#[doc = "row by row with Givens rotations (no normal equations: float keeps its digits). The memory is the caller's, whatever the rows."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_linfit_t {
+    #[doc = "accelerometers"]
+    pub count: uint_least8_t,
+    #[doc = "upper triangle"]
+    pub R: [ins_real; 16usize],
+    #[doc = "right-hand sides"]
+    pub z: [ins_real; 48usize],
+    #[doc = "sum of squared residuals"]
+    pub residual2: [ins_real; 12usize],
+}
+impl Default for ins_linfit_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
+extern "C" {
+    #[doc = "\\return INS_OK; INS_E_RANGE unless 1 <= count <= INS_SIXACC_MAX."]
+    pub fn ins_linfit_init(self_: *mut ins_linfit_t, count: ::core::ffi::c_uint) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\param[in] f_b  [3] specific force [m/s^2]. \\param[in] readings  [count]. \\return INS_OK; INS_E_RANGE for NaN, unchanged."]
+    pub fn ins_linfit_add(self_: *mut ins_linfit_t, f_b: *const ins_real, readings: *const ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\param[out] map  [4] of accelerometer `index`: bias, axis. \\return INS_OK; INS_E_STATE while the attitudes seen do not fix it;"]
+    #[doc = "INS_E_RANGE for a wrong index."]
+    pub fn ins_linfit_solve(self_: *const ins_linfit_t, index: ::core::ffi::c_uint, map: *mut ins_real) -> ins_status_t;
+}
+#[doc = "attitude, in n [rad]"]
+pub const INS_GYRO_FREE_PHI: _bindgen_ty_10 = 0;
+#[doc = "velocity, in n [m/s]"]
+pub const INS_GYRO_FREE_V: _bindgen_ty_10 = 3;
+#[doc = "position, north, east, down [m]"]
+pub const INS_GYRO_FREE_P: _bindgen_ty_10 = 6;
+#[doc = "rate, in b [rad/s]"]
+pub const INS_GYRO_FREE_W: _bindgen_ty_10 = 9;
+#[doc = "of the angular acceleration, in b [rad/s^2]"]
+pub const INS_GYRO_FREE_BD: _bindgen_ty_10 = 12;
+#[doc = "of the specific force, in b [m/s^2]"]
+pub const INS_GYRO_FREE_BF: _bindgen_ty_10 = 15;
+#[doc = "Where three errors begin."]
+pub type _bindgen_ty_10 = ::core::ffi::c_uint;
+#[doc = "Standard deviations; those of the readings are alike for all accelerometers, in m/s^2."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gyro_free_config_t {
+    #[doc = "of a reading, quantisation included, > 0"]
+    pub noise: ins_real,
+    #[doc = "of a reading's bias at the start"]
+    pub bias: ins_real,
+    #[doc = "its growth [m/s^2/sqrt(s)]"]
+    pub bias_walk: ins_real,
+    #[doc = "at the start, about north, east, down [rad]"]
+    pub attitude: [ins_real; 3usize],
+    #[doc = "each axis [m/s]"]
+    pub velocity: ins_real,
+    #[doc = "each axis [m]"]
+    pub position: ins_real,
+    #[doc = "each axis [rad/s]"]
+    pub rate: ins_real,
+    #[doc = "an innovation's v^2 / variance above it is refused: INS_KALMAN_GATE_999 is good; 0: none"]
+    pub gate: ins_real,
+}
+#[doc = "Owned by the caller; readable."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_gyro_free_t {
+    pub cfg: ins_gyro_free_config_t,
+    #[doc = "its biases are the estimated ones"]
+    pub sixacc: ins_sixacc_t,
+    pub strapdown: ins_strapdown_t,
+    #[doc = "reading of an angular acceleration and a specific force"]
+    pub forward: [[ins_real; 6usize]; 12usize],
+    #[doc = "covariance of these two for readings of variance 1"]
+    pub noise: [[ins_real; 6usize]; 6usize],
+    pub UD: [ins_real; 171usize],
+    #[doc = "innovations outside the gate"]
+    pub refused: u32,
+}
+impl Default for ins_gyro_free_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
+extern "C" {
+    #[doc = "At rate 0. \\return INS_OK; INS_E_RANGE for what ins_sixacc_init() and ins_strapdown_init() refuse, a noise that is not positive, or"]
+    #[doc = "another figure that is negative or not a number."]
+    pub fn ins_gyro_free_init(
+        self_: *mut ins_gyro_free_t,
+        cfg: *const ins_gyro_free_config_t,
+        count: ::core::ffi::c_uint,
+        accels: *const ins_accel_t,
+        period_s: ins_real,
+        q_nb: *const ins_real,
+        v_n: *const ins_real,
+        position: *const ins_position_t,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Next sample. \\param[in] readings  [count]. \\return INS_OK; INS_S_START for the first sample, which moves nothing; INS_E_RANGE as"]
+    #[doc = "ins_sixacc_step() and ins_strapdown_step(); nothing is changed then."]
+    pub fn ins_gyro_free_step(self_: *mut ins_gyro_free_t, readings: *const ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "A fix of the antenna's position at the last sample. Each axis is judged by itself."]
+    #[doc = "\\param[in] sigma  [3] north, east, down [m]. \\param[in] l_b  [3] from the IMU to the antenna [m]."]
+    #[doc = "\\return INS_OK; INS_E_GATE: an axis was outside the gate (the others count); INS_E_RANGE for NaN or a sigma that is not positive."]
+    pub fn ins_gyro_free_position(
+        self_: *mut ins_gyro_free_t,
+        fix: *const ins_position_t,
+        sigma: *const ins_real,
+        l_b: *const ins_real,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "A known velocity. \\param[in] sigma  [3] [m/s]. \\return as ins_gyro_free_position()."]
+    pub fn ins_gyro_free_velocity(self_: *mut ins_gyro_free_t, v_n: *const ins_real, sigma: *const ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Known to stand still: the velocity is 0 and the rate that of the Earth. What calibrates dbd, at every sample of a standstill."]
+    #[doc = "\\param[in] sigma_v  [m/s]. \\param[in] sigma_w  [rad/s]. \\return as ins_gyro_free_position()."]
+    pub fn ins_gyro_free_still(self_: *mut ins_gyro_free_t, sigma_v: ins_real, sigma_w: ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "\\param[out] sigma  [INS_GYRO_FREE_N] standard deviations of the errors."]
+    pub fn ins_gyro_free_sigma(self_: *const ins_gyro_free_t, sigma: *mut ins_real);
+}
 #[doc = "Both sides take one; a member that the other side alone uses may be 0. reply_timeout must be longer than octet_timeout and one"]
 #[doc = "exchange of octets, so that the host is back in idle when the board asks again."]
 #[repr(C)]
@@ -1598,15 +1797,15 @@ extern "C" {
     #[doc = "Time passes: call at least every reply_timeout / 2 or so; expires waits."]
     pub fn ins_hs_board_tick(self_: *mut ins_hs_board_t, now: u16);
 }
-pub const INS_HS_NOTHING: _bindgen_ty_10 = 0;
+pub const INS_HS_NOTHING: _bindgen_ty_11 = 0;
 #[doc = "a new block is in self->block (sequence nibbles removed), self->seq and self->gap are set"]
-pub const INS_HS_BLOCK: _bindgen_ty_10 = 1;
+pub const INS_HS_BLOCK: _bindgen_ty_11 = 1;
 #[doc = "a block already delivered came again (cfg.seq only); it was acknowledged"]
-pub const INS_HS_DUPLICATE: _bindgen_ty_10 = 2;
+pub const INS_HS_DUPLICATE: _bindgen_ty_11 = 2;
 #[doc = "the sum did not agree; FF was answered, or the tries are used up"]
-pub const INS_HS_CORRUPT: _bindgen_ty_10 = 3;
+pub const INS_HS_CORRUPT: _bindgen_ty_11 = 3;
 #[doc = "What an octet led to, on the host."]
-pub type _bindgen_ty_10 = ::core::ffi::c_uint;
+pub type _bindgen_ty_11 = ::core::ffi::c_uint;
 #[doc = "Host side (B). Start with ins_hs_host_init(). Members are private, block, seq, gap and the counters readable."]
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
@@ -1747,19 +1946,19 @@ extern "C" {
     #[doc = "As ins_hs_host_tick()."]
     pub fn ins_link_host_tick(self_: *mut ins_link_host_t, now: u16);
 }
-pub const INS_NAV_BLOCK_ALIGNED: _bindgen_ty_12 = 1;
-pub const INS_NAV_BLOCK_INTEGER: _bindgen_ty_12 = 2;
-pub const INS_NAV_BLOCK_FRACTION: _bindgen_ty_12 = 4;
-pub const INS_NAV_BLOCK_POSITION: _bindgen_ty_12 = 8;
-pub const INS_NAV_BLOCK_FILTER: _bindgen_ty_12 = 16;
-pub const INS_NAV_BLOCK_ZONE_119: _bindgen_ty_12 = 32;
-pub const INS_NAV_BLOCK_GATED: _bindgen_ty_12 = 64;
-pub const INS_NAV_BLOCK_LINE_ERROR: _bindgen_ty_12 = 128;
-pub const INS_NAV_BLOCK_GAP: _bindgen_ty_12 = 256;
-pub const INS_NAV_BLOCK_WATCHDOG: _bindgen_ty_12 = 512;
-pub const INS_NAV_BLOCK_CLIPPED: _bindgen_ty_12 = 1024;
-pub const INS_NAV_BLOCK_STATUS_ALL: _bindgen_ty_12 = 2047;
-pub type _bindgen_ty_12 = ::core::ffi::c_uint;
+pub const INS_NAV_BLOCK_ALIGNED: _bindgen_ty_13 = 1;
+pub const INS_NAV_BLOCK_INTEGER: _bindgen_ty_13 = 2;
+pub const INS_NAV_BLOCK_FRACTION: _bindgen_ty_13 = 4;
+pub const INS_NAV_BLOCK_POSITION: _bindgen_ty_13 = 8;
+pub const INS_NAV_BLOCK_FILTER: _bindgen_ty_13 = 16;
+pub const INS_NAV_BLOCK_ZONE_119: _bindgen_ty_13 = 32;
+pub const INS_NAV_BLOCK_GATED: _bindgen_ty_13 = 64;
+pub const INS_NAV_BLOCK_LINE_ERROR: _bindgen_ty_13 = 128;
+pub const INS_NAV_BLOCK_GAP: _bindgen_ty_13 = 256;
+pub const INS_NAV_BLOCK_WATCHDOG: _bindgen_ty_13 = 512;
+pub const INS_NAV_BLOCK_CLIPPED: _bindgen_ty_13 = 1024;
+pub const INS_NAV_BLOCK_STATUS_ALL: _bindgen_ty_13 = 2047;
+pub type _bindgen_ty_13 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_nav_block_t {
@@ -1786,23 +1985,23 @@ extern "C" {
     #[doc = "\\return INS_OK; INS_E_RANGE for another version, bits that are always 0, or components that are no quaternion's; nav is then unchanged."]
     pub fn ins_nav_block_get(block: *const ins_octet_t, nav: *mut ins_nav_block_t) -> ins_status_t;
 }
-pub const INS_NMEA_NOTHING: _bindgen_ty_13 = 0;
-pub const INS_NMEA_GGA: _bindgen_ty_13 = 1;
-pub const INS_NMEA_RMC: _bindgen_ty_13 = 2;
-pub const INS_NMEA_VTG: _bindgen_ty_13 = 3;
+pub const INS_NMEA_NOTHING: _bindgen_ty_14 = 0;
+pub const INS_NMEA_GGA: _bindgen_ty_14 = 1;
+pub const INS_NMEA_RMC: _bindgen_ty_14 = 2;
+pub const INS_NMEA_VTG: _bindgen_ty_14 = 3;
 #[doc = "What an octet led to."]
-pub type _bindgen_ty_13 = ::core::ffi::c_uint;
-pub const INS_NMEA_TIME: _bindgen_ty_14 = 1;
-pub const INS_NMEA_POSITION: _bindgen_ty_14 = 2;
-pub const INS_NMEA_SATS: _bindgen_ty_14 = 4;
-pub const INS_NMEA_HDOP: _bindgen_ty_14 = 8;
-pub const INS_NMEA_ALTITUDE: _bindgen_ty_14 = 16;
-pub const INS_NMEA_GEOID: _bindgen_ty_14 = 32;
-pub const INS_NMEA_SPEED: _bindgen_ty_14 = 64;
-pub const INS_NMEA_COURSE: _bindgen_ty_14 = 128;
-pub const INS_NMEA_DATE: _bindgen_ty_14 = 256;
-#[doc = "Bits of ins_nmea_fix_t.has."]
 pub type _bindgen_ty_14 = ::core::ffi::c_uint;
+pub const INS_NMEA_TIME: _bindgen_ty_15 = 1;
+pub const INS_NMEA_POSITION: _bindgen_ty_15 = 2;
+pub const INS_NMEA_SATS: _bindgen_ty_15 = 4;
+pub const INS_NMEA_HDOP: _bindgen_ty_15 = 8;
+pub const INS_NMEA_ALTITUDE: _bindgen_ty_15 = 16;
+pub const INS_NMEA_GEOID: _bindgen_ty_15 = 32;
+pub const INS_NMEA_SPEED: _bindgen_ty_15 = 64;
+pub const INS_NMEA_COURSE: _bindgen_ty_15 = 128;
+pub const INS_NMEA_DATE: _bindgen_ty_15 = 256;
+#[doc = "Bits of ins_nmea_fix_t.has."]
+pub type _bindgen_ty_15 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_nmea_fix_t {
@@ -1874,10 +2073,10 @@ extern "C" {
     #[doc = "An octet came. \\return INS_NMEA_GGA, RMC or VTG: self->fix has it; else INS_NMEA_NOTHING."]
     pub fn ins_nmea_rx(self_: *mut ins_nmea_t, octet: ins_octet_t) -> ::core::ffi::c_int;
 }
-pub const INS_PVA_POSITION: _bindgen_ty_15 = 0;
-pub const INS_PVA_VELOCITY: _bindgen_ty_15 = 1;
-pub const INS_PVA_ACCELERATION: _bindgen_ty_15 = 2;
-pub type _bindgen_ty_15 = ::core::ffi::c_uint;
+pub const INS_PVA_POSITION: _bindgen_ty_16 = 0;
+pub const INS_PVA_VELOCITY: _bindgen_ty_16 = 1;
+pub const INS_PVA_ACCELERATION: _bindgen_ty_16 = 2;
+pub type _bindgen_ty_16 = ::core::ffi::c_uint;
 #[doc = "Owned by the caller; readable."]
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
@@ -2061,101 +2260,6 @@ extern "C" {
 extern "C" {
     #[doc = "\\return 0, or the INS_SELFTEST_* of what failed, or-ed."]
     pub fn ins_selftest() -> ::core::ffi::c_uint;
-}
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_accel_t {
-    #[doc = "in units of the reading"]
-    pub bias: ins_real,
-    #[doc = "reading per m/s^2, in b"]
-    pub axis: [ins_real; 3usize],
-    #[doc = "place [m], in b"]
-    pub r: [ins_real; 3usize],
-}
-#[doc = "Geometry, and the state of the rate's integration. Owned by the caller."]
-#[repr(C)]
-#[derive(Debug, Default, Copy, Clone)]
-pub struct ins_sixacc_t {
-    pub count: uint_least8_t,
-    pub started: uint_least8_t,
-    pub period_s: ins_real,
-    pub bias: [ins_real; 12usize],
-    #[doc = "readings less biases -> wd, f"]
-    pub inverse: [[ins_real; 12usize]; 6usize],
-    #[doc = "wx wx, wy wy, wz wz, wx wy, wx wz, wy wz -> what they add to wd, f"]
-    pub product: [[ins_real; 6usize]; 6usize],
-    #[doc = "rate at the last sample [rad/s]; set it to start with a known one"]
-    pub w_ib_b: [ins_real; 3usize],
-    #[doc = "inverse times the last sample"]
-    pub linear: [ins_real; 6usize],
-    #[doc = "angular acceleration at the last sample [rad/s^2]"]
-    pub wd_ib_b: [ins_real; 3usize],
-}
-extern "C" {
-    #[doc = "The paper's six, arm rho [m]. \\param[out] accels  [6]."]
-    pub fn ins_sixacc_paper(rho: ins_real, accels: *mut ins_accel_t);
-}
-extern "C" {
-    #[doc = "Rate 0. \\return INS_OK; INS_E_RANGE unless 6 <= count <= INS_SIXACC_MAX, period_s > 0, all numbers finite and the six unknowns"]
-    #[doc = "observable."]
-    pub fn ins_sixacc_init(
-        self_: *mut ins_sixacc_t,
-        count: ::core::ffi::c_uint,
-        accels: *const ins_accel_t,
-        period_s: ins_real,
-    ) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "One instant, for a known rate. \\param[in] readings  [count]. \\param[out] wd_ib_b  [3] [rad/s^2]. \\param[out] f_b  [3] [m/s^2]."]
-    pub fn ins_sixacc_resolve(
-        self_: *const ins_sixacc_t,
-        readings: *const ins_real,
-        w_ib_b: *const ins_real,
-        wd_ib_b: *mut ins_real,
-        f_b: *mut ins_real,
-    );
-}
-extern "C" {
-    #[doc = "Next sample: rate by the trapezoid of the angular acceleration, products of the rate taken at mid-interval."]
-    #[doc = "\\param[in] readings  [count]. \\param[out] increment  over the last period; zero for the first sample."]
-    #[doc = "\\return INS_OK; INS_S_START for the first sample; INS_E_RANGE for NaN or infinity, and then self is unchanged."]
-    pub fn ins_sixacc_step(self_: *mut ins_sixacc_t, readings: *const ins_real, increment: *mut ins_increment_t) -> ins_status_t;
-}
-#[doc = "Linear map of accelerometers from readings in known attitudes: P = map[0] + map[1..3] . a, by least squares on [1, a], taken in"]
-#[doc = "row by row with Givens rotations (no normal equations: float keeps its digits). The memory is the caller's, whatever the rows."]
-#[repr(C)]
-#[derive(Debug, Copy, Clone)]
-pub struct ins_linfit_t {
-    #[doc = "accelerometers"]
-    pub count: uint_least8_t,
-    #[doc = "upper triangle"]
-    pub R: [ins_real; 16usize],
-    #[doc = "right-hand sides"]
-    pub z: [ins_real; 48usize],
-    #[doc = "sum of squared residuals"]
-    pub residual2: [ins_real; 12usize],
-}
-impl Default for ins_linfit_t {
-    fn default() -> Self {
-        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
-        unsafe {
-            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
-            s.assume_init()
-        }
-    }
-}
-extern "C" {
-    #[doc = "\\return INS_OK; INS_E_RANGE unless 1 <= count <= INS_SIXACC_MAX."]
-    pub fn ins_linfit_init(self_: *mut ins_linfit_t, count: ::core::ffi::c_uint) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "\\param[in] f_b  [3] specific force [m/s^2]. \\param[in] readings  [count]. \\return INS_OK; INS_E_RANGE for NaN, unchanged."]
-    pub fn ins_linfit_add(self_: *mut ins_linfit_t, f_b: *const ins_real, readings: *const ins_real) -> ins_status_t;
-}
-extern "C" {
-    #[doc = "\\param[out] map  [4] of accelerometer `index`: bias, axis. \\return INS_OK; INS_E_STATE while the attitudes seen do not fix it;"]
-    #[doc = "INS_E_RANGE for a wrong index."]
-    pub fn ins_linfit_solve(self_: *const ins_linfit_t, index: ::core::ffi::c_uint, map: *mut ins_real) -> ins_status_t;
 }
 #[doc = "Start with ins_thesis_init()."]
 #[repr(C)]

@@ -21,6 +21,7 @@
 #include "ins/gps_dr_paper.h"
 #include "ins/gps_ins.h"
 #include "ins/gps_ins_types.h"
+#include "ins/gyro_free.h"
 #include "ins/handshake.h"
 #include "ins/hist2.h"
 #include "ins/ins_math.h"
