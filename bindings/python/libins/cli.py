@@ -121,6 +121,7 @@ def parser() -> argparse.ArgumentParser:
     s = commands.add_parser("sub", help="print navigation states that arrive over DDS, one line of JSON each")
     s.add_argument("--limit", type=int, metavar="N", help="stop after N states")
     s.add_argument("--timeout-s", type=float, metavar="S", help="exit 1 when nothing arrives for so long")
+    s.add_argument("--exclusive", action="store_true", help="of publishers with --strength the strongest alive")
     _dds_options(s)
     return grammar
 
@@ -188,11 +189,11 @@ def _dds_module(options: argparse.Namespace) -> tuple[Any, str | None]:
         raise UsageError(f"{options.dds_config}: cannot be read: {error.strerror}") from error
 
 
-def open_dds(options: argparse.Namespace, publishes: bool) -> Any:
+def open_dds(options: argparse.Namespace, publishes: bool, exclusive: bool = False) -> Any:
     """A DDS handle from the command line's options. Raises UsageError."""
     _dds, xml = _dds_module(options)
     try:
-        return _dds.Handle(options.domain, options.topic or _dds.TOPIC, xml, publishes)
+        return _dds.Handle(options.domain, options.topic or _dds.TOPIC, xml, publishes, exclusive)
     except RuntimeError as error:
         raise UsageError(f"DDS: {error}") from error
 
@@ -349,7 +350,7 @@ def navd_path() -> Path:
 
 
 def _sub_command(options: argparse.Namespace) -> int:
-    handle = open_dds(options, publishes=False)
+    handle = open_dds(options, publishes=False, exclusive=options.exclusive)
     count = 0
     gone: set[str] = set()
     last = time.monotonic()

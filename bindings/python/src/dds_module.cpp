@@ -22,7 +22,8 @@ namespace
 class Handle
 {
   public:
-    Handle(uint32_t domain, const std::string& topic, const std::optional<std::string>& xml, bool publishes)
+    Handle(uint32_t domain, const std::string& topic, const std::optional<std::string>& xml, bool publishes,
+           bool exclusive)
     {
         ins_dds_config_t cfg;
         ins_dds_config_default(&cfg);
@@ -33,6 +34,7 @@ class Handle
         cfg.publishes = publishes ? 1 : 0;
         cfg.subscribes = publishes ? 0 : 1;
         cfg.history = publishes ? cfg.history : 256;
+        cfg.strength = exclusive ? 1 : 0;
         if (ins_dds_open(&cfg, &self_) != INS_DDS_OK)
         {
             throw std::runtime_error(ins_dds_error_text());
@@ -175,8 +177,8 @@ NB_MODULE(_dds, m)
     m.doc() = "Navigation states over DDS; see ins_dds/dds.h.";
     m.attr("TOPIC") = INS_DDS_TOPIC;
     nb::class_<Handle>(m, "Handle")
-        .def(nb::init<uint32_t, const std::string&, const std::optional<std::string>&, bool>(), "domain"_a, "topic"_a,
-             "xml"_a.none(), "publishes"_a)
+        .def(nb::init<uint32_t, const std::string&, const std::optional<std::string>&, bool, bool>(), "domain"_a,
+             "topic"_a, "xml"_a.none(), "publishes"_a, "exclusive"_a = false)
         .def("publish", publish, "state"_a, "source"_a, "published_ns"_a)
         .def("take", take, "timeout_s"_a)
         .def("matched", [](const Handle& self) { return checked(ins_dds_matched(self.get())); })

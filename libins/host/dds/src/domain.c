@@ -42,6 +42,11 @@ static int check(const ins_dds_config_t* cfg)
     {
         return dds_fail(INS_DDS_E_ARGUMENT, "the DDS deadline must be 0 to 1e6 s, the liveliness lease 0.01 to 1e6 s");
     }
+    if (cfg->strength < 0)
+    {
+        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS strength must be 0, for shared ownership, or more, not %d",
+                        (int)cfg->strength);
+    }
     if (cfg->history < 1 || cfg->history > 100000)
     {
         return dds_fail(INS_DDS_E_ARGUMENT, "the DDS history must be 1 to 100000 samples");
@@ -169,8 +174,10 @@ dds_qos_t* dds_quality(const ins_dds_config_t* cfg, int is_writer)
     {
         dds_qset_partition1(qos, cfg->partition);
     }
+    dds_qset_ownership(qos, cfg->strength > 0 ? DDS_OWNERSHIP_EXCLUSIVE : DDS_OWNERSHIP_SHARED);
     if (is_writer)
     {
+        dds_qset_ownership_strength(qos, cfg->strength);
         dds_qset_writer_data_lifecycle(qos, false);
         dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, dds_duration(cfg->lease_s));
         dds_qset_deadline(qos, cfg->deadline_s > 0.0 ? dds_duration(cfg->deadline_s) : DDS_INFINITY);

@@ -48,6 +48,8 @@ static const char* const help =
     "      --dds-env             configuration from CYCLONEDDS_URI in place of loopback\n"
     "      --topic NAME          libins/nav_state, with --input nav libins/nav_solution\n"
     "      --partition NAME      none\n"
+    "      --strength N          of several daemons of one source only the strongest alive is heard; 0: all are\n"
+    "      --lease-s S           it counts as gone after S seconds without a sign of life; 1\n"
     "      --source ID           key of the published states; ins-navd\n"
     "      --ros[=NAMESPACE]     publish ROS 2 topics (imu/data, /tf, /diagnostics; with --input nav gnss/fix, "
     "odometry, twist\n"
@@ -80,6 +82,8 @@ enum
     O_DDS,
     O_DDS_CONFIG,
     O_DDS_ENV,
+    O_STRENGTH,
+    O_LEASE,
     O_ROS,
     O_TOPIC,
     O_PARTITION,
@@ -110,6 +114,8 @@ static const struct option known[] = {
     {"dds", optional_argument, NULL, O_DDS},
     {"dds-config", required_argument, NULL, O_DDS_CONFIG},
     {"dds-env", no_argument, NULL, O_DDS_ENV},
+    {"strength", required_argument, NULL, O_STRENGTH},
+    {"lease-s", required_argument, NULL, O_LEASE},
     {"ros", optional_argument, NULL, O_ROS},
     {"topic", required_argument, NULL, O_TOPIC},
     {"partition", required_argument, NULL, O_PARTITION},
@@ -167,6 +173,20 @@ static int reals(int code, const char* text, int want, int one_for_all, double s
         fprintf(stderr, "ins-navd: --%s: '%s' is not %s%s\n", option_name(code), text,
                 want == 1 ? "a number" : "three numbers with commas between",
                 want > 1 && one_for_all ? ", nor one for all three" : "");
+        return 0;
+    }
+    return 1;
+}
+
+static int above_zero(int code, const char* text, double* out)
+{
+    if (!reals(code, text, 1, 0, 1.0, out))
+    {
+        return 0;
+    }
+    if (!(*out > 0.0))
+    {
+        fprintf(stderr, "ins-navd: --%s: '%s' is not above 0\n", option_name(code), text);
         return 0;
     }
     return 1;
@@ -318,6 +338,13 @@ static int take(options_t* o, int code, const char* text)
     case O_DDS_ENV:
         o->dds_environment = 1;
         break;
+    case O_STRENGTH:
+        good = whole(code, text, 0, INT32_MAX, &n);
+        o->strength = (int32_t)n;
+        break;
+    case O_LEASE:
+        good = above_zero(code, text, &o->lease_s);
+        break;
     case O_ROS:
         o->ros = text != NULL ? text : "/";
         break;
@@ -338,12 +365,7 @@ static int take(options_t* o, int code, const char* text)
         good = whole(code, text, 1, UINT64_MAX, &o->limit);
         break;
     case 't':
-        good = reals(code, text, 1, 0, 1.0, &o->timeout_s);
-        if (good && !(o->timeout_s > 0.0))
-        {
-            fprintf(stderr, "ins-navd: --timeout-s: '%s' is not above 0\n", text);
-            good = 0;
-        }
+        good = above_zero(code, text, &o->timeout_s);
         break;
     case 'q':
         o->quiet = 1;
@@ -381,9 +403,9 @@ static const char* problem(const options_t* o)
     {
         return "--baud: not a rate of this system; use 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200 or 230400";
     }
-    if (!o->dds && (o->topic != NULL || o->partition != NULL))
+    if (!o->dds && (o->topic != NULL || o->partition != NULL || o->strength != 0 || o->lease_s > 0.0))
     {
-        return "--topic and --partition want --dds";
+        return "--topic, --partition, --strength and --lease-s want --dds";
     }
     if (!o->dds && o->ros == NULL && (o->dds_config != NULL || o->dds_environment))
     {

@@ -90,6 +90,8 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
     cfg.kind = options->input == INPUT_NAV ? INS_DDS_SOLUTION : INS_DDS_STATE;
     cfg.topic = options->topic;
     cfg.partition = options->partition;
+    cfg.strength = options->strength;
+    cfg.lease_s = options->lease_s > 0.0 ? options->lease_s : cfg.lease_s;
     cfg.network = options->dds_environment ? INS_DDS_ENVIRONMENT : INS_DDS_LOOPBACK;
     cfg.log = log_line;
     cfg.log_context = (void*)(uintptr_t)options; // only read

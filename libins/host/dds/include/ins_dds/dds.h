@@ -64,6 +64,9 @@ typedef struct ins_dds_config_t
     double deadline_s;     ///< writer: longest time between two samples that it promises; 0 = none
     double lease_s;        ///< writer: it counts as gone after this time without a sign of life
     uint32_t history;      ///< samples kept per source, writer and reader
+    /// 0: every writer is heard. Above: of the writers of a source only the strongest alive is (EXCLUSIVE ownership), with this strength
+    /// for a writer; reader and writers must all be so. A stronger one takes over at once, a weaker one lease_s after the last sign of life.
+    int32_t strength;
     /// Receives the lines of Cyclone's log, which is one for the process: that of the handle opened last, until it is closed. Called
     /// from any thread. NULL: they go to stderr, but for those of an open that fails, which are in the error text.
     void (*log)(void* context, const char* line);
