@@ -1,10 +1,10 @@
 /// \file   attitude.cpp
 /// \brief  Attitude errors against the step: forms, sampled rates, functional iteration, the thesis's, integers, skew. Units: rad, s.
 /// SPDX-License-Identifier: MIT
-#include "attitude_runs.h"
+#include "attitude_errors.hpp"
 #include "figures.hpp"
 using namespace core_test;
-using figures::point;
+using namespace figures;
 
 #ifndef INS_REAL_FLOAT
 namespace
@@ -12,72 +12,6 @@ namespace
 const double DEG = PI / 180;
 const double DURATION_S = 24;
 const double T = 0.08; // of the table
-
-using Truth = std::function<Quat(size_t)>;
-
-Truth truth_of(const Motion& m, double period)
-{
-    return [&m, period](size_t k) { return m.attitude(static_cast<double>(k) * period); };
-}
-
-double named(const Motion& m, const std::string& name, double period, size_t steps)
-{
-    return max_error(run_named(m, name, period, steps), truth_of(m, period));
-}
-
-double fiter(const Motion& m, int form, double period, size_t steps)
-{
-    const auto truth = truth_of(m, period);
-    if (form != INS_FITER_BLOCK3)
-    {
-        return max_error(run_fiter_motion(m, form, period, steps), truth);
-    }
-    std::vector<Vec> incs;
-    for (size_t k = 0; k < steps; k++)
-    {
-        incs.push_back(m.increment(static_cast<double>(k) * period, static_cast<double>(k + 1) * period));
-    }
-    return max_error(run_block3(truth(0), incs), truth);
-}
-
-/// The thesis's update, from increments.
-double thesis(const Motion& m, double period, size_t steps)
-{
-    std::vector<Vec> incs;
-    for (size_t k = 0; k < steps; k++)
-    {
-        incs.push_back(m.increment(static_cast<double>(k) * period, static_cast<double>(k + 1) * period));
-    }
-    return max_error(run_thesis(m.attitude(0), m.increment(-period, 0), incs), truth_of(m, period));
-}
-
-/// The thesis's RK4 with the rate every `sample`, two samples a step.
-double rk4(const Motion& m, double sample, size_t samples)
-{
-    std::vector<Vec> rates;
-    for (size_t k = 0; k <= samples; k++)
-    {
-        rates.push_back(m.rate(static_cast<double>(k) * sample));
-    }
-    return max_error(run_rk4(0, 2 * sample, true, m.attitude(0), rates), truth_of(m, sample));
-}
-
-/// Rates taken for constant until the next sample: what a firmware does that takes an ADC's samples for increments.
-double rectangle(const Motion& m, double period, size_t steps)
-{
-    std::vector<Vec> pre;
-    std::vector<Vec> incs;
-    for (long k = -3; k < static_cast<long>(steps); k++)
-    {
-        Vec w = m.rate(static_cast<double>(k) * period);
-        for (double& x : w)
-        {
-            x *= period;
-        }
-        (k < 0 ? pre : incs).push_back(w);
-    }
-    return max_error(run_form(INS_CONING_HIST2_OPT, m.attitude(0), pre, incs), truth_of(m, period));
-}
 
 /// Sample reuse as the paper prints it: a three-sample rotation vector on the newest attitude.
 double naive_reuse(const Motion& m, double period, size_t steps)

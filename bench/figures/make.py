@@ -53,6 +53,7 @@ SPECS = {
     "rates_step": Figure("sampling period T [s]", "largest attitude error in 24 s, motion B [rad]"),
     "skew": Figure("vibration [Hz], 1°, one channel 0.3 ms late", "false drift [°/h]"),
     "fiter_step": Figure("increment or sampling period T [s]", "largest attitude error in 24 s, motion B [rad]"),
+    "order_step": Figure("increment or sampling period T [s]", "largest attitude error in 24 s, tumbling [rad]"),
     "thesis_step": Figure("increment or sampling period T [s]", "largest attitude error in 24 s, motion B [rad]"),
     "q31_size": Figure("largest increment [rad]", "largest error in 10 minutes at 100 Hz [rad]", rounding="."),
     "sculling_step": Figure(
@@ -85,7 +86,7 @@ MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 def run(build: Path) -> Points:
     """Points of both number types and of the thesis's system, rounded to four figures."""
     points: Points = {}
-    for program in ("figures_f64", "figures_f32", "figures_thesis"):
+    for program in ("figures_f64", "figures_f32", "figures_order", "figures_thesis"):
         path = build / "bench/figures" / program
         if not path.exists():
             raise SystemExit(f"{path} is missing: run ./dev test, or cmake --build --preset release --target {program}")
@@ -259,6 +260,14 @@ KALMAN_ROWS = {
 }
 
 
+def orders(points: Points) -> str:
+    rows = {**MOTION_ROWS, **RATE_ROWS}
+    return "\n".join(
+        f"| {rows[curve]} | {motion_cell(values[0])} | {values[1]:.2f} |"
+        for curve, values in points["table_order"].items()
+    )
+
+
 def degrees_cell(value: float) -> str:
     return f"{value:.1f}"
 
@@ -281,6 +290,7 @@ def tables(points: Points) -> dict[Path, dict[str, str]]:
             "increments": table(points["table_motion"], MOTION_ROWS, motion_cell),
             "rates": table(points["table_motion"], RATE_ROWS, motion_cell),
             "noise": table(points["table_noise"], NOISE_ROWS, motion_cell),
+            "order": orders(points),
         },
         THESIS: {
             "rest": table(points["table_thesis_rest"], REST_ROWS, degrees_cell),

@@ -12,7 +12,8 @@ inline const Motion MOTION_A = {{0, 0.5, 0.25, 0}, {0, 0.3, 0.2, 0}, {0, 0, 0, 0
 inline const Motion MOTION_B = {{0, 1.0, 0.2, 0}, {0, 0.5, 0.3, 0}, {0, 0.3, 0.25, 0}};
 inline const Motion MOTION_D = {{0, 30 * PI / 180, 1, 0}, {0, 20 * PI / 180, 1, PI / 2}, {0, 10 * PI / 180, 1, 0.3}};
 
-inline Track run_named(const Motion& m, const std::string& name, double period, size_t steps)
+/// Known: attitude(t), rate(t), increment(t0, t1), as Motion has them.
+template <typename Known> Track run_named(const Known& m, const std::string& name, double period, size_t steps)
 {
     const auto truth = [&](long k) { return m.attitude(static_cast<double>(k) * period); };
     const std::string rates_prefix = "AM";
@@ -95,7 +96,7 @@ inline Track run_block3(const Quat& start, const std::vector<Vec>& increments)
     return track;
 }
 
-inline Track run_fiter_motion(const Motion& m, int form, double period, size_t steps)
+template <typename Known> Track run_fiter_motion(const Known& m, int form, double period, size_t steps)
 {
     std::vector<Vec> before;
     std::vector<Vec> samples;
