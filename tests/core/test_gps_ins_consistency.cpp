@@ -78,4 +78,40 @@ TEST(gps_ins_consistency, nees_and_nis_of_many_runs_are_chi_squared)
     position.expect("NIS of positions");
     velocity.expect("NIS of velocities");
 }
+
+TEST(gps_ins_consistency, a_start_as_unsure_as_is_allowed_stays_honest)
+{
+    const ride::Track track = eight(5);
+    const Increments exact = increments(track.get(), DURATION_S);
+    constexpr double START_S = 20;
+    Errors unsure = START;
+    unsure[0] = 0.03;
+    unsure[1] = 0.03;
+    unsure[2] = static_cast<double>(INS_GPS_INS_TILT_MAX);
+    Squares heading;
+    double worst = 0;
+    for (int run = 0; run < runs(); run++)
+    {
+        Ride r(track.get(), static_cast<uint64_t>(run + 1));
+        r.sensor_as_told();
+        r.start(START_S, unsure);
+        for (size_t k = static_cast<size_t>(START_S * HZ); k < exact.size(); k++)
+        {
+            const double t = static_cast<double>(k + 1) / HZ;
+            ASSERT_EQ(r.step(t, exact[k]), INS_OK);
+            if ((k + 1) % 50 == 0)
+            {
+                const ins_gnss_fix_t f = r.fix(t);
+                (void)ins_gps_ins_gnss(&r.nav, &f);
+            }
+        }
+        ins_gps_ins_state_t s;
+        ins_gps_ins_state(&r.nav, &s);
+        const double x = r.errors(DURATION_S)[2] / static_cast<double>(s.sigma[2]);
+        heading.take(x * x, 1);
+        worst = larger(worst, std::fabs(x));
+    }
+    heading.expect("heading 40 s after a start of 0.3 rad");
+    EXPECT_LT(worst, 4.5);
+}
 } // namespace

@@ -1,8 +1,9 @@
 /// \file   gps_ins.cpp
-/// \brief  GPS/INS filter, detector of rest, times and positions of receivers: ins/gps_ins.h, ins/still.h, ins/gnss.h.
+/// \brief  GPS/INS filter, detector of rest, times and positions of receivers: ins/gps_ins.h, ins/gps_ins_align.h, ins/still.h, ins/gnss.h.
 /// SPDX-License-Identifier: MIT
 #include "arrays.hpp"
 #include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
 namespace libins
@@ -72,7 +73,7 @@ void start(ins_gps_ins_t* self, const Config& cfg, int64_t t_ns, const Given& q_
            const ins_position_t& position, const Given& sigma, const Given& gyro_bias, const Given& accel_bias)
 {
     new (self) ins_gps_ins_t();
-    const Call call("GpsIns", "a config in its ranges, unit q_nb, sigma >= 0 and no angle's above 0.6 rad");
+    const Call call("GpsIns", "a config in its ranges, unit q_nb, sigma >= 0 and no angle's above GPS_INS_TILT_MAX");
     ins_gps_ins_start_t s = {};
     s.t_ns = t_ns;
     s.position = position;
@@ -89,10 +90,10 @@ void start(ins_gps_ins_t* self, const Config& cfg, int64_t t_ns, const Given& q_
     call.check(ins_gps_ins_init(self, &cfg, &s));
 }
 
-ins_status_t fix(ins_gps_ins_t& self, int64_t t_ns, const ins_position_t& position, const Given& v_n,
-                 const Given& sigma_p, const Given& sigma_v)
+ins_gnss_fix_t fix_of(const char* name, int64_t t_ns, const ins_position_t& position, const Given& v_n,
+                      const Given& sigma_p, const Given& sigma_v)
 {
-    const Call call("GpsIns.gnss");
+    const Call call(name);
     ins_gnss_fix_t f = {};
     f.t_ns = t_ns;
     f.position = position;
@@ -102,6 +103,13 @@ ins_status_t fix(ins_gps_ins_t& self, int64_t t_ns, const ins_position_t& positi
     std::copy(v.data, v.data + 3, f.v_n);
     std::copy(p.data, p.data + 3, f.sigma_p);
     std::copy(s.data, s.data + 3, f.sigma_v);
+    return f;
+}
+
+ins_status_t fix(ins_gps_ins_t& self, int64_t t_ns, const ins_position_t& position, const Given& v_n,
+                 const Given& sigma_p, const Given& sigma_v)
+{
+    const ins_gnss_fix_t f = fix_of("GpsIns.gnss", t_ns, position, v_n, sigma_p, sigma_v);
     return ins_gps_ins_gnss(&self, &f);
 }
 
@@ -186,6 +194,79 @@ void bind_filter(nb::module_& m)
     copies(nav);
 }
 
+/// A filter that starts here, or None.
+std::optional<ins_gps_ins_t> begin(ins_gps_ins_align_t& self, const Config& cfg, int64_t t_ns,
+                                   const ins_position_t& position, const Given& v_n, const Given& sigma_p,
+                                   const Given& sigma_v)
+{
+    const ins_gnss_fix_t f = fix_of("GpsInsAlign.gnss", t_ns, position, v_n, sigma_p, sigma_v);
+    const Call call("GpsInsAlign.gnss", "finite figures, every sigma > 0, at most 0.1 s late, an IMU sample before it");
+    ins_gps_ins_start_t s = {};
+    const ins_status_t status = ins_gps_ins_align_gnss(&self, &f, &s);
+    call.check(status);
+    if (status == INS_S_START)
+    {
+        return std::nullopt;
+    }
+    ins_gps_ins_t nav = {};
+    call.check(ins_gps_ins_init(&nav, &cfg, &s));
+    return nav;
+}
+
+void bind_align(nb::module_& m)
+{
+    using Align = ins_gps_ins_align_t;
+    nb::class_<Align> align(m, "GpsInsAlign", "Where a GpsIns starts: level and heading, at rest or under way.");
+    align.def(
+        "__init__",
+        [](Align* self, const Config& cfg, std::optional<double> heading_max, std::optional<double> memory,
+           std::optional<double> course_speed, std::optional<double> course_sigma)
+        {
+            new (self) Align();
+            ins_gps_ins_align_config_t how;
+            ins_gps_ins_align_config(&how);
+            how.heading_max = heading_max ? as_real(*heading_max) : how.heading_max;
+            how.memory = memory ? as_real(*memory) : how.memory;
+            how.course_speed = course_speed ? as_real(*course_speed) : how.course_speed;
+            how.course_sigma = course_sigma ? as_real(*course_sigma) : how.course_sigma;
+            Call("GpsInsAlign", "0 < heading_max <= GPS_INS_TILT_MAX, memory and course_sigma > 0, course_speed >= 0")
+                .check(ins_gps_ins_align_init(self, &cfg, &how));
+        },
+        "config"_a, nb::kw_only(), "heading_max"_a = nb::none(), "memory"_a = nb::none(), "course_speed"_a = nb::none(),
+        "course_sigma"_a = nb::none(),
+        "As in ins_gps_ins_align_config_t; course_speed 0: the nose need not point along the velocity.");
+    align.def(
+        "step",
+        [](Align& self, const Given& t_ns, double dt, const Given& theta_b, const Given& v_b)
+        {
+            Call call("GpsInsAlign.step");
+            const auto t = call.rows<int64_t>("t_ns", t_ns, {});
+            const auto theta = call.rows<ins_real>("theta_b", theta_b, {3});
+            const auto v = call.rows<ins_real>("v_b", v_b, {3});
+            const auto status = call.out<int32_t>({});
+            call.run(
+                [&](size_t k)
+                {
+                    const ins_increment_t x = increment(theta[k], v[k]);
+                    *status[k] = ins_gps_ins_align_step(&self, *t[k], as_real(dt), &x);
+                });
+            return status;
+        },
+        "t_ns"_a, "dt"_a, "theta_b"_a, "v_b"_a, "IMU samples, as GpsIns.step.");
+    align.def(
+        "heading",
+        [](Align& self, double heading, double sigma)
+        {
+            Call("GpsInsAlign.heading", "|heading| <= 2 pi, sigma > 0")
+                .check(ins_gps_ins_align_heading(&self, as_real(heading), as_real(sigma)));
+        },
+        "heading"_a, "sigma"_a, "Heading of the nose now, from who knows it [rad].");
+    align.def("gnss", begin, "config"_a, "t_ns"_a, "position"_a, "v_n"_a, "sigma_p"_a, "sigma_v"_a,
+              "A fix: a GpsIns that starts here, or None while the heading is not known well enough.");
+    reads(align, "gyro_bias", &Align::gyro_bias, {3}, "Of the last rest [rad/s], (3,).");
+    copies(align);
+}
+
 void bind_still(nb::module_& m)
 {
     nb::class_<ins_still_t> still(m, "Still", "Detector of rest, over blocks of IMU samples. Frame: b. SI, rad.");
@@ -224,6 +305,7 @@ void bind_still(nb::module_& m)
 
 void bind_gps_ins(nb::module_& m)
 {
+    m.attr("GPS_INS_TILT_MAX") = static_cast<double>(INS_GPS_INS_TILT_MAX);
     m.attr("GNSS_WEEK_NS") = INS_GNSS_WEEK_NS;
     m.attr("GNSS_ROLLOVER_NS") = INS_GNSS_ROLLOVER_NS;
     m.def("gnss_time_near", ins_gnss_time_near, "t_ns"_a, "period_ns"_a, "near_ns"_a,
@@ -240,6 +322,7 @@ void bind_gps_ins(nb::module_& m)
     bind_still(m);
     bind_config(m);
     bind_filter(m);
+    bind_align(m);
 }
 
 } // namespace libins

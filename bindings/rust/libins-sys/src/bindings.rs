@@ -1541,6 +1541,99 @@ extern "C" {
 }
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_ins_align_config_t {
+    #[doc = "standard deviation that is good enough, up to INS_GPS_INS_TILT_MAX [rad]"]
+    pub heading_max: ins_real,
+    #[doc = "of the accelerations [s]; the gyros' bias turns them meanwhile"]
+    pub memory: ins_real,
+    #[doc = "from which on the nose points along the velocity [m/s]; 0: it need not"]
+    pub course_speed: ins_real,
+    #[doc = "how well [rad]"]
+    pub course_sigma: ins_real,
+}
+#[doc = "Owned by the caller. Start with ins_gps_ins_align_init(); gyro_bias is readable. Members are private."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_gps_ins_align_t {
+    pub sensors: ins_kf15_sensors_t,
+    pub how: ins_gps_ins_align_config_t,
+    pub antenna_b: [ins_real; 3usize],
+    #[doc = "of the last rest [rad/s]"]
+    pub gyro_bias: [ins_real; 3usize],
+    #[doc = "[rad/s]"]
+    pub bg_sigma: ins_real,
+    pub still: ins_still_t,
+    #[doc = "attitude against that at the last fix"]
+    pub turned: ins_sculling_t,
+    #[doc = "specific force integrated since, in b as it stood then [m/s]"]
+    pub felt: [ins_real; 3usize],
+    #[doc = "of the last sample [s]"]
+    pub dt: ins_real,
+    #[doc = "time of felt [s]"]
+    pub felt_s: ins_real,
+    #[doc = "of the last sample"]
+    pub t_ns: i64,
+    #[doc = "of the last fix [m/s]"]
+    pub v_n: [ins_real; 3usize],
+    #[doc = "1: v_n and felt are good"]
+    pub has_fix: uint_least8_t,
+    #[doc = "1: the last fix had no velocity; a steady drive looks like rest to an IMU"]
+    pub rests: uint_least8_t,
+    #[doc = "sum of w n b', rows n"]
+    pub M: [ins_real; 9usize],
+    #[doc = "of what was felt"]
+    pub sum_b: [ins_real; 3usize],
+    #[doc = "of what it must have been"]
+    pub sum_n: [ins_real; 3usize],
+    #[doc = "sum of w n n', less what is noise in it [1/rad^2]"]
+    pub S: [ins_real; 9usize],
+    #[doc = "sum of w e^2, e the most that biases bend what was felt"]
+    pub bent: ins_real,
+    #[doc = "the nose when its direction was known"]
+    pub nose_b: [ins_real; 3usize],
+    #[doc = "that direction, horizontal"]
+    pub nose_n: [ins_real; 3usize],
+    #[doc = "0: not known [rad]"]
+    pub nose_sigma: ins_real,
+}
+extern "C" {
+    #[doc = "heading_max 0.2 rad, memory 20 s, course of a vehicle from 3 m/s within 0.05 rad."]
+    pub fn ins_gps_ins_align_config(how: *mut ins_gps_ins_align_config_t);
+}
+extern "C" {
+    #[doc = "\\param[in] cfg  of the filter to start: sensors, antenna, detector of rest. \\return INS_E_RANGE, self unchanged."]
+    pub fn ins_gps_ins_align_init(
+        self_: *mut ins_gps_ins_align_t,
+        cfg: *const ins_gps_ins_config_t,
+        how: *const ins_gps_ins_align_config_t,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Next IMU sample, as ins_gps_ins_step(). After a gap the accelerations begin anew."]
+    #[doc = "\\return INS_OK; INS_E_RANGE: not a number, or its time does not follow."]
+    pub fn ins_gps_ins_align_step(
+        self_: *mut ins_gps_ins_align_t,
+        t_ns: i64,
+        dt: ins_real,
+        increment: *const ins_increment_t,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "Heading of the nose from who knows it: a compass, two antennas, a map [rad]."]
+    #[doc = "\\return INS_E_RANGE: not a number, |heading| > 2 pi, or no sigma."]
+    pub fn ins_gps_ins_align_heading(self_: *mut ins_gps_ins_align_t, heading: ins_real, sigma: ins_real) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "A fix of position and velocity, at most 0.1 s late. \\param[out] start  if INS_OK."]
+    #[doc = "\\return INS_OK: this is where it starts; INS_S_START: not known yet; INS_E_RANGE: not such a fix."]
+    pub fn ins_gps_ins_align_gnss(
+        self_: *mut ins_gps_ins_align_t,
+        fix: *const ins_gnss_fix_t,
+        start: *mut ins_gps_ins_start_t,
+    ) -> ins_status_t;
+}
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
 pub struct ins_accel_t {
     #[doc = "in units of the reading"]
     pub bias: ins_real,

@@ -13,7 +13,8 @@ extern "C" {
 #define INS_GPS_INS_GATE3_999 INS_C(16.266236) ///< chi-squared, 3 degrees of freedom, 99.9 %
 #define INS_GPS_INS_PAST      8u               ///< instants of the antenna kept for late fixes
 #define INS_GPS_INS_DELAY_MAX INS_C(0.5)       ///< of a fix [s]
-#define INS_GPS_INS_TILT_MAX  INS_C(0.6)       ///< largest standard deviation of an angle at the start [rad]
+#define INS_GPS_INS_TILT_MAX                                                                                           \
+    INS_C(0.3) ///< largest standard deviation of an angle at the start [rad]; docs/gps_ins.md says why
 
 typedef struct ins_gps_ins_config_t
 {

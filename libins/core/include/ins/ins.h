@@ -20,6 +20,7 @@
 #include "ins/gps_dr.h"
 #include "ins/gps_dr_paper.h"
 #include "ins/gps_ins.h"
+#include "ins/gps_ins_align.h"
 #include "ins/gps_ins_types.h"
 #include "ins/gyro_free.h"
 #include "ins/handshake.h"
