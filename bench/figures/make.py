@@ -1,4 +1,4 @@
-"""Draws the figures of docs and fills their tables: errors of the core on known motions, and the thesis's experiments.
+"""Draws the figures of docs and fills their tables: errors of the core on known motions, the experiments of the papers.
 
     python bench/figures/make.py            # runs build/release/bench/figures, writes docs/figures and the tables
     python bench/figures/make.py --check    # writes nothing, compares with what is committed
@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import matplotlib
+import sixacc
 
 matplotlib.use("svg")
 from matplotlib import pyplot  # noqa: E402
@@ -27,6 +28,7 @@ FIGURES = ROOT / "docs/figures"
 POINTS = FIGURES / "points.csv"
 ACCURACY = ROOT / "docs/accuracy.md"
 THESIS = ROOT / "docs/experiments_thesis.md"
+SIXACC = ROOT / "docs/experiments_sixacc.md"
 Points = dict[str, dict[str, dict[float, float]]]  # figure, curve, x
 
 SAME = 0.05  # relative, of a point that is a formula's error
@@ -75,6 +77,11 @@ SPECS = {
     "thesis_rest": Figure("time at rest [s]", "largest of |P|, |Q|, |R| [°]", x_scale="linear", y_scale="linear"),
     "thesis_kalman": Figure("step of 0.05 s", "error of the position [m]", x_scale="linear"),
     "thesis_drive": Figure("time [s]", "error of the position [m]", x_scale="linear"),
+    "sixacc_paper_outputs": Figure("accelerometer", "error of an output [m/s²]", rounding="^map", x_scale="linear"),
+    "sixacc_paper_angular": Figure(
+        "time [s]", "error of the angular acceleration [rad/s²]", rounding="^map", x_scale="linear"
+    ),
+    "sixacc_paper_linear": Figure("time [s]", "error of the acceleration [m/s²]", rounding="^map", x_scale="linear"),
     "link_undetected": Figure("bit error rate", "frames taken though wrong"),
 }
 # Of middle lightness: they stand out on a white page and on a black one.
@@ -84,17 +91,24 @@ MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 
 
 def run(build: Path) -> Points:
-    """Points of both number types and of the thesis's system, rounded to four figures."""
+    """Points of both number types and of the papers' systems, rounded to four figures."""
     points: Points = {}
-    for program in ("figures_f64", "figures_f32", "figures_order", "figures_thesis"):
+    for program in ("figures_f64", "figures_f32", "figures_order", "figures_thesis", "figures_sixacc"):
         path = build / "bench/figures" / program
         if not path.exists():
             raise SystemExit(f"{path} is missing: run ./dev test, or cmake --build --preset release --target {program}")
         done = subprocess.run([path], capture_output=True, text=True, check=True)
         for line in done.stdout.splitlines():
             figure, curve, x, y = line.split("\t")
-            points.setdefault(figure, {}).setdefault(curve, {})[float(x)] = float(f"{float(y):.3e}")
+            points.setdefault(figure, {}).setdefault(curve, {})[float(x)] = float(f"{float(y):.{digits(figure)}e}")
+    for curve, value in sixacc.board(build).items():
+        points.setdefault(sixacc.BOARD, {})[curve] = {0.0: float(f"{value:.{digits(sixacc.BOARD)}e}")}
     return points
+
+
+def digits(figure: str) -> int:
+    """After the point: the paper's table 7 has five figures."""
+    return 5 if figure in sixacc.TABLE_7 else 3
 
 
 def to_text(points: Points) -> str:
@@ -104,7 +118,7 @@ def to_text(points: Points) -> str:
     for figure in sorted(points):
         for curve, values in points[figure].items():
             for x, y in sorted(values.items()):
-                writer.writerow([figure, curve, f"{x:.6g}", f"{y:.3e}"])
+                writer.writerow([figure, curve, f"{x:.6g}", f"{y:.{digits(figure)}e}"])
     return out.getvalue()
 
 
@@ -299,6 +313,7 @@ def tables(points: Points) -> dict[Path, dict[str, str]]:
             "gain": table(points["table_thesis_gain"], KALMAN_ROWS, lambda y: f"{y:.4f}"),
             "drive": table(points["table_thesis_drive"], DRIVE_ROWS, coning_cell),
         },
+        SIXACC: sixacc.tables(points),
     }
 
 

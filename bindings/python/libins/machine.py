@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
 
-from libins import _run, faults, sixacc
+from libins import _run, faults, sixacc, sixacc_calibration
 from libins.errors import UsageError
 from libins.motions import motion_of
 from libins.program import Program
@@ -188,6 +189,9 @@ class AcquisitionMachine:
         self.run = build(scenario, seed, outside, trace=trace, seen=seen)
         if scenario.tables.sixacc is not None:
             self.scan_columns = _run.SIX_SCAN_COLUMNS
+        self._calibration = None
+        if scenario.tables.calibration is not None:
+            self._calibration = partial(sixacc_calibration.measured, scenario, seed, track_of(scenario))
         self.navigates = scenario.tables.nav is not None and not outside
         self._program = program
         self._end: str | None = None
@@ -238,6 +242,8 @@ class AcquisitionMachine:
             "cpu": {key: c[key] for key in ("instructions", "cycles", "interrupts")},
             "samples": c["sampled"],
         }
+        if self._calibration is not None:
+            ran["calibration"] = self._calibration(self.run)
         if not self.navigates:
             return {**ran, "link": None, "attitude": None, "age_s": None}
         return {**ran, "link": link_of(c, states), **accuracy(states)}

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from libins import _run
+from libins import _run, fixture
 from libins.errors import UsageError
 from libins.tables import Loaded, Motion, Sinusoid
 
@@ -19,6 +19,9 @@ def built_motion(ins: Any, motion: Motion, rows: np.ndarray[Any, Any] | None) ->
         assert rows is not None
         t = rows[:, 0].tolist()
         yaw, pitch, roll = (column.tolist() for column in np.unwrap(rows[:, 1:], axis=0).T)
+        return ins.motion_table(t, yaw, pitch, roll, motion.ramp_s)
+    if motion.kind == "fixture":
+        t, yaw, pitch, roll = (column.tolist() for column in fixture.rows(motion))
         return ins.motion_table(t, yaw, pitch, roll, motion.ramp_s)
     if motion.kind == "coning":
         return ins.motion_coning(motion.half_angle_rad, motion.frequency_hz, motion.ramp_s)

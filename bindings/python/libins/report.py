@@ -38,6 +38,25 @@ def cpu_text(summary: dict[str, Any]) -> str:
     return f"{cpu['accesses']} register accesses, {cpu['interrupts']} interrupts"
 
 
+def calibration_lines(calibration: dict[str, Any] | None) -> list[str]:
+    """What came out of a fixture, a line an accelerometer."""
+    if calibration is None:
+        return []
+    lines = [f"rests     {calibration['scans']} scans or more in each, LSB {calibration['lsb_m_s2']:.4g} m/s^2"]
+    paper = calibration.get("paper")
+    for j, residual in calibration["residual_rms_m_s2"].items():
+        printed = f"SF {paper['sf'][j]:.4f}, bias {paper['bias_g'][j]:.5f} g; " if paper else ""
+        lines.append(
+            f"#{j}        {printed}map off by {calibration['axis_error'][j]:.1e} of its length and "
+            f"{calibration['bias_error_m_s2'][j]:.1e} m/s^2, residual {residual:.1e} m/s^2"
+        )
+    if paper:
+        lines.append(
+            "angles    " + ", ".join(f"{name} {value:.4f}" for name, value in paper["angle_deg"].items()) + " deg"
+        )
+    return lines
+
+
 def text(summary: dict[str, Any]) -> str:
     """The summary for a terminal."""
     speed = summary["speed"]
@@ -64,6 +83,7 @@ def text(summary: dict[str, Any]) -> str:
             lines.append(f"error     {kind} [rad]: {values}")
     if (position := summary.get("position")) is not None:
         lines.append(f"position  rms {position['rms_m']:.2f} m, max {position['max_m']:.2f} m")
+    lines += calibration_lines(summary.get("calibration"))
     if (age := summary["age_s"]) is not None:
         lines.append(f"age       {age['min'] * 1e3:.2f} to {age['max'] * 1e3:.2f} ms from the sample to the attitude")
     if summary["dds"] is not None:

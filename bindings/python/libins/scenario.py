@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from libins import faults, hexfile, net_scenario, sixacc_tables
+from libins import faults, hexfile, net_scenario, sixacc_calibration, sixacc_tables
 from libins.errors import UsageError
 from libins.schema import Document, field
 from libins.sensor_tables import Track, read_track
-from libins.sixacc_tables import SixAcc
+from libins.sixacc_tables import Calibration, SixAcc
 from libins.tables import (
     ACQUISITION,
     FLASH_OCTETS,
@@ -59,6 +59,7 @@ class Tables(Acquisition, Common):
     link: Link = field(Link)
     nav: Nav | None = field(None)
     sixacc: SixAcc | None = field(None)
+    calibration: Calibration | None = field(None)
     track: Track = field(Track)
 
 
@@ -145,6 +146,8 @@ def read(document: Document, firmware: Path | None = None, combination: Mapping[
         sixacc_tables.check(document, tables.sixacc)
     elif "track" in document.table:
         raise document.refuse(("track",), "needs a [sixacc] table: gyros do not feel where the board goes")
+    if tables.calibration is not None:
+        sixacc_calibration.check(document, tables.calibration, tables.motion, tables.sixacc)
     if tables.nav is not None:
         check_nav(document, ("nav",), tables.nav)
     elif tables.stop_samples is not None:

@@ -35,6 +35,14 @@ class SixAcc:
         return 2.0 * self.range_g * G_M_S2 / SPAN_CODES
 
 
+@dataclass(frozen=True, kw_only=True)
+class Calibration:
+    """What is made of the codes of a motion of kind fixture."""
+
+    settle_s: float = field(0.5, minimum=0.0, maximum=1e5)
+    paper: bool = field(False)
+
+
 def check(document: Document, table: SixAcc) -> None:
     """What one key alone cannot show. Raises UsageError."""
     for name, value in vars(table).items():

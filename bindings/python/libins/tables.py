@@ -44,7 +44,7 @@ class Sinusoid:
 class Motion:
     """The true motion. `kind` says which of the other keys count."""
 
-    kind: str = field(choices=("still", "constant_rate", "sinusoids", "coning", "csv"))
+    kind: str = field(choices=("still", "constant_rate", "sinusoids", "coning", "csv", "fixture"))
     ramp_s: float = field(0.0, minimum=0.0)
     yaw: Sinusoid = field(Sinusoid)
     pitch: Sinusoid = field(Sinusoid)
@@ -53,6 +53,9 @@ class Motion:
     half_angle_rad: float = field(0.0, minimum=0.0, maximum=math.pi / 2)
     frequency_hz: float = field(0.0, minimum=0.0, maximum=1000.0)
     csv: str = field("")
+    up_b: list[list[float]] = field([])
+    rest_s: float = field(5.0, minimum=0.1, maximum=1e5)
+    turn_s: float = field(1.0, minimum=0.1, maximum=1e5)
 
 
 @dataclass(frozen=True)
@@ -188,6 +191,11 @@ def check_motion(document: Document, motion: Motion) -> None:
     """As check_common."""
     if len(motion.rate_rad_s) != 3:
         raise document.refuse(("motion", "rate_rad_s"), f"found {motion.rate_rad_s!r}, but 3 numbers are needed")
+    if motion.kind == "fixture" and not motion.up_b:
+        raise document.refuse(("motion", "up_b"), "is missing; a fixture needs the upward vertical in b of each rest")
+    for i, up in enumerate(motion.up_b):
+        if len(up) != 3 or not any(up):
+            raise document.refuse(("motion", "up_b", str(i)), f"found {up!r}, but 3 numbers, not all 0, are needed")
 
 
 def check_acquisition(document: Document, place: Place, board: Acquisition) -> None:
