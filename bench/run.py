@@ -24,6 +24,16 @@ BUDGETS = {
     "sculling.f32.x86.instructions": 188.7,
     "strapdown.step.f64.x86.instructions": 488,
     "strapdown.step.f32.x86.instructions": 459,
+    "kf15.propagate.f64.x86.instructions": 3527,
+    "kf15.propagate.f32.x86.instructions": 2804,
+    "kf15.update6.f64.x86.instructions": 6242,
+    "kf15.update6.f32.x86.instructions": 3880,
+    "kf15.lever6.f64.x86.instructions": 8298,
+    "kf15.lever6.f32.x86.instructions": 5357,
+    "kf15_ud.propagate.f64.x86.instructions": 13885,
+    "kf15_ud.propagate.f32.x86.instructions": 10231,
+    "kf15_ud.update6.f64.x86.instructions": 6484,
+    "kf15_ud.update6.f32.x86.instructions": 5288,
     "batch.f64.x86_64_v3.instructions": 27.5,
     "batch.f32.x86_64_v3.instructions": 12.97,
     "dds.publish.instructions": 7660,
@@ -36,6 +46,17 @@ CORE = (
     ("sculling.f32.x86", "sculling_f32", "ins_sculling_step", (1000, 11000), 1, None),
     ("strapdown.step.f64.x86", "strapdown_f64", "ins_strapdown_step", (1000, 11000), 1, "eigen_strapdown"),
     ("strapdown.step.f32.x86", "strapdown_f32", "ins_strapdown_step", (1000, 11000), 1, None),
+    *(
+        (f"{form}.{what}.{number}.x86", f"kf15_{number}", f"bench_{form}_{what}", (20, 220), 1, peer)
+        for form in ("kf15", "kf15_ud")
+        for number in ("f64", "f32")
+        for what, peer in (
+            ("propagate", "eigen_kf15_propagate" if number == "f64" else None),
+            ("update6", "eigen_kf15_update6" if number == "f64" else None),
+        )
+    ),
+    ("kf15.lever6.f64.x86", "kf15_f64", "bench_kf15_lever6", (20, 220), 1, "eigen_kf15_update6"),
+    ("kf15.lever6.f32.x86", "kf15_f32", "bench_kf15_lever6", (20, 220), 1, None),
     ("batch.f64.x86_64_v3", "batch_f64", "ins_batch_step", (100, 300), 256, None),
     ("batch.f32.x86_64_v3", "batch_f32", "ins_batch_step", (100, 300), 256, None),
 )
@@ -69,8 +90,13 @@ def measure_core() -> list[Row]:
     rows = []
     for name, load, function, runs, updates, eigen in CORE:
         alone = row(f"{name}.instructions", per_step(f"core/bench_{load}", *runs, function) / updates, "instructions")
+        covariance = load.startswith("kf15")
         if eigen:
-            alone |= {"peer": "Eigen", "peer_value": per_step("core/bench_eigen", 100, 300, eigen)}
+            peer = "core/bench_eigen_kf15" if covariance else "core/bench_eigen"
+            alone |= {"peer": "Eigen", "peer_value": per_step(peer, 100, 300, eigen)}
+        if covariance:
+            rows.append(alone)
+            continue
         whole = row(f"{name}.with_loop", per_step(f"core/bench_{load}", *runs) / updates, "instructions")
         rows += [alone] if updates > 1 else [alone, whole]
     return rows

@@ -22,6 +22,7 @@ int bench_kf15_propagate(load_t* self, const ins_increment_t* increment);
 int bench_kf15_ud_propagate(load_t* self, const ins_increment_t* increment);
 int bench_kf15_update6(load_t* self);
 int bench_kf15_ud_update6(load_t* self);
+int bench_kf15_lever6(load_t* self);
 
 int bench_kf15_propagate(load_t* self, const ins_increment_t* increment)
 {
@@ -45,6 +46,27 @@ int bench_kf15_update6(load_t* self)
     {
         ins_innovation_t z = {INS_C(0.1), INS_C(0.01), 0, 0};
         if (ins_kf15_update_state(&self->filter, INS_KF15_V + i, &z) != INS_OK)
+        {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int bench_kf15_lever6(load_t* self)
+{
+    // Velocity and position of an antenna: three and two attitude errors, three gyro biases beside its own.
+    static const ins_real h[SCALARS][INS_KF15_N] = {
+        {0, INS_C(.1), INS_C(-.2), 1, 0, 0, 0, 0, 0, 1, INS_C(-2.0), INS_C(.5)},
+        {INS_C(-.1), 0, INS_C(.3), 0, 1, 0, 0, 0, 0, INS_C(.3), 1, INS_C(-1.0)},
+        {INS_C(.2), INS_C(-.3), 0, 0, 0, 1, 0, 0, 0, INS_C(-1.0), 2, INS_C(.1)},
+        {0, 2, INS_C(.5), 0, 0, 0, 1},
+        {INS_C(-2.0), 0, 1, 0, 0, 0, 0, 1},
+        {INS_C(-.5), -1, 0, 0, 0, 0, 0, 0, 1}};
+    for (unsigned i = 0; i < SCALARS; i++)
+    {
+        ins_innovation_t z = {INS_C(0.1), INS_C(0.01), 0, 0};
+        if (ins_kf15_update(&self->filter, h[i], &z) != INS_OK)
         {
             return 1;
         }
@@ -95,7 +117,7 @@ int main(int argc, char** argv)
     {
         if (bench_kf15_propagate(&load, &increment[2 * k % SAMPLES]) < 0 ||
             bench_kf15_ud_propagate(&load, &increment[(2 * k + 1) % SAMPLES]) < 0 || bench_kf15_update6(&load) ||
-            bench_kf15_ud_update6(&load))
+            bench_kf15_ud_update6(&load) || bench_kf15_lever6(&load))
         {
             return 1;
         }

@@ -37,8 +37,14 @@ LOADS = {
     "attitude.lean.f32": ("ins_hist2_step", "LOAD_LEAN", "f32"),
     "attitude.q31": ("ins_q31_step", "LOAD_Q31", "f32"),
     "attitude.q31w": ("ins_q31w_step", "LOAD_Q31W", "f32"),
+    "kf15.propagate.f32": ("ins_kf15_propagate", "LOAD_KF15", "f32"),
+    "kf15.update6.f32": ("load_kf15_update6", "LOAD_KF15_UPDATE6", "f32"),
+    "kf15_ud.propagate.f32": ("ins_kf15_ud_propagate", "LOAD_KF15_UD", "f32"),
+    "kf15_ud.update6.f32": ("load_kf15_update6", "LOAD_KF15_UD_UPDATE6", "f32"),
 }
 SOURCES = {"attitude": "attitude|coning|rotvec|quat", "hist2": "hist2", "q31": "q31", "q31w": "q31"}
+SOURCES["kf15"] = "kf15|markov|elementary"
+FPU_ONLY = ("m4f",)  # where loads of the covariance are measured
 MEASURED = ("m0", "m3", "m4f", "m7", "arm926", "arm920t", "rv32imac", "avr")
 # Where -O2 is not the build to take: fixed point on M0 has fewer instructions and a third of the code; lean is meant
 # for small flash.
@@ -121,7 +127,8 @@ def measure(machine: Machine, load: str, flags: str, folder: Path, counter: Path
             objects.append(folder / "core" / f"{source.stem}.o")
             machine.compile(source, objects[-1], options)
     main = folder / "load.o"
-    machine.compile(ROOT / "bench/targets/load.c", main, [*options, f"-D{define}"])
+    source = "load_kf15.c" if load.startswith("kf15") else "load.c"
+    machine.compile(ROOT / "bench/targets" / source, main, [*options, f"-D{define}"])
     program, linker_map = folder / "load.elf", folder / "load.map"
     machine.connect([main, *objects, Path(f"-Wl,-Map={linker_map}")], program)
     all_calls = calls(machine, program, function, folder, counter)
@@ -141,9 +148,13 @@ def measure(machine: Machine, load: str, flags: str, folder: Path, counter: Path
     )
 
 
+def is_measured(machine: str, load: str) -> bool:
+    return LOADS[load][2] in MACHINES[machine].numbers and (machine in FPU_ONLY or not load.startswith("kf15"))
+
+
 def figures(machines: Iterable[str], loads: Iterable[str], flags: Iterable[str] = ()) -> Iterator[Figure]:
     """Without flags, each module's best."""
-    chosen = [(name, load) for name in machines for load in loads if LOADS[load][2] in MACHINES[name].numbers]
+    chosen = [(name, load) for name in machines for load in loads if is_measured(name, load)]
     with tempfile.TemporaryDirectory() as scratch, ThreadPoolExecutor(2) as pool:
         folder = Path(scratch)
         counter = plugin(folder)

@@ -161,6 +161,39 @@ struct Symmetric
     }
 };
 
+/// P - K h P and no more: what the textbook's first formula does, for comparison.
+struct Conventional : Symmetric
+{
+    ins_status_t update(const Row15& h, ins_innovation_t& z)
+    {
+        std::array<ins_real, N15> g = {};
+        ins_real s = z.r;
+        for (size_t i = 0; i < N15; i++)
+        {
+            for (size_t j = 0; j < N15; j++)
+            {
+                g[i] += f.P[i * INS_KF15_ROW + j] * h[j];
+            }
+            s += h[i] * g[i];
+        }
+        for (size_t i = 0; i < N15; i++)
+        {
+            f.K[i] = g[i] / s;
+            for (size_t j = 0; j < N15; j++)
+            {
+                f.P[i * INS_KF15_ROW + j] -= f.K[i] * g[j];
+            }
+        }
+        return INS_OK;
+    }
+    ins_status_t update_state(unsigned index, ins_innovation_t& z)
+    {
+        Row15 h = {};
+        h[index] = 1;
+        return update(h, z);
+    }
+};
+
 struct Factors
 {
     ins_kf15_ud_t f;

@@ -118,6 +118,152 @@ TYPED_TEST(Kf15, is_symmetric_to_the_last_bit)
     }
 }
 
+TYPED_TEST(Kf15, stays_a_covariance)
+{
+    const long steps = std::getenv("INS_BENCH") ? 360000 : 12000; // an hour, two minutes
+    const long fix = 25;
+    const long looked_at = 1000;
+    double least = 1;
+    ASSERT_EQ(this->form.init(sigmas(100)), INS_OK); // and fixes of a centimetre: P0/R = 1e8
+    for (long k = 0; k < steps; k++)
+    {
+        this->step(k);
+        const bool outage = k % 6000 > 3000;
+        for (unsigned i = 0; i < 3 && k % fix == 0 && !outage; i++)
+        {
+            ins_innovation_t position = {0, ins_real(1e-4), 0, 0};
+            ins_innovation_t velocity = {0, ins_real(4e-4), 0, 0};
+            Row15 h = i == 0 ? antenna_north() : Row15{};
+            h[INS_KF15_P + i] = 1;
+            ASSERT_EQ(this->form.update(h, position), INS_OK) << k;
+            ASSERT_EQ(this->form.update_state(INS_KF15_V + i, velocity), INS_OK) << k;
+        }
+        if (k % looked_at < 2)
+        {
+            least = std::min(least, smallest_pivot(covariance(this->form)));
+            ASSERT_GT(least, 0) << k;
+        }
+    }
+    std::printf("[ figure   ] smallest pivot of the correlation matrix %.1e\n", least);
+}
+
+TYPED_TEST(Kf15, refuses)
+{
+    const ins_real nan = std::numeric_limits<ins_real>::quiet_NaN();
+    const ins_real inf = std::numeric_limits<ins_real>::infinity();
+    for (const ins_real bad : {ins_real(-1), nan, inf})
+    {
+        Row15 sigma = sigmas();
+        sigma[14] = bad;
+        EXPECT_EQ(this->form.init(sigma), INS_E_RANGE);
+    }
+    this->step(0);
+    const auto before = this->form.packed();
+    const auto gain = this->form.f.K[INS_KF15_P];
+    const auto unchanged = [&] { return this->form.packed() == before && this->form.f.K[INS_KF15_P] == gain; };
+    Row15 h = antenna_north();
+    ins_innovation_t z = {100, 1, INS_KALMAN_GATE_99, 0};
+    EXPECT_EQ(this->form.update_state(INS_KF15_P, z), INS_E_GATE);
+    EXPECT_NEAR(static_cast<double>(z.nis), 1e4 / 101, 0.1);
+    EXPECT_EQ(this->form.update(h, z), INS_E_GATE);
+    z.v = 0;
+    EXPECT_EQ(this->form.update_state(N15, z), INS_E_RANGE);
+    for (const ins_real bad : {ins_real(0), ins_real(-1), nan})
+    {
+        ins_innovation_t wrong = {0, bad, 0, 0};
+        EXPECT_EQ(this->form.update_state(INS_KF15_P, wrong), INS_E_RANGE);
+        EXPECT_EQ(this->form.update(h, wrong), INS_E_RANGE);
+    }
+    for (const ins_real bad : {nan, inf})
+    {
+        ins_innovation_t wrong = {bad, 1, 0, 0};
+        EXPECT_EQ(this->form.update_state(INS_KF15_P, wrong), INS_E_RANGE);
+        h[3] = bad;
+        EXPECT_EQ(this->form.update(h, z), INS_E_RANGE);
+    }
+    EXPECT_TRUE(unchanged());
+}
+
+TYPED_TEST(Kf15, a_row_of_zeros_says_nothing)
+{
+    const auto before = this->form.packed();
+    ins_innovation_t z = {1, 1, 0, 0};
+    EXPECT_EQ(this->form.update(Row15{}, z), INS_OK);
+    EXPECT_EQ(z.nis, 1);
+    EXPECT_EQ(this->form.packed(), before);
+    EXPECT_EQ(this->form.f.K[0], 0);
+}
+
+TYPED_TEST(Kf15, what_is_certain_stays_certain)
+{
+    ASSERT_EQ(this->form.init(Row15{}), INS_OK);
+    ins_kf15_sensors_t none = {0, 0, 0, 300, 0, 300};
+    ASSERT_EQ(ins_kf15_model_init(&this->model, ins_real(PERIOD_S), &none), INS_OK);
+    this->step(0);
+    ins_innovation_t z = {1, 1, 0, 0};
+    EXPECT_EQ(this->form.update(antenna_north(), z), INS_OK);
+    EXPECT_EQ(this->form.update_state(4, z), INS_OK);
+    for (const ins_real p : this->form.packed())
+    {
+        EXPECT_EQ(p, 0);
+    }
+}
+
+/// Largest error of the gain of a position on itself, over that gain, after the third of 40 fixes of 20 Hz. North is an antenna's.
+template <typename Form> double gain_error_of(double p0, double r)
+{
+    Form form;
+    ins_kf15_model_t model = start_of_model();
+    ins_strapdown_t s = start_of_drive();
+    Row15 sigma = sigmas(std::sqrt(p0));
+    EXPECT_EQ(form.init(sigma), INS_OK);
+    Reference want(sigma);
+    double worst = 0;
+    for (long k = 0; k < 200; k++)
+    {
+        const ins_increment_t x = drive(k);
+        EXPECT_GE(ins_strapdown_step(&s, &x), INS_OK);
+        ins_kf15_model(&model, &s, x.v_b);
+        form.propagate(model);
+        want.propagate(model);
+        for (unsigned i = INS_KF15_P; i < INS_KF15_P + 3 && k % 5 == 4; i++)
+        {
+            ins_innovation_t z = {0, static_cast<ins_real>(r), 0, 0};
+            Row15 h = i == INS_KF15_P ? antenna_north() : Row15{};
+            h[i] = 1;
+            if ((i == INS_KF15_P ? form.update(h, z) : form.update_state(i, z)) != INS_OK)
+            {
+                return INFINITY;
+            }
+            want.update(h, static_cast<double>(z.r));
+            const long double error = (static_cast<long double>(form.f.K[i]) - want.K[i]) / want.K[i];
+            worst = k > 15 ? larger(worst, std::fabs(static_cast<double>(error))) : worst;
+        }
+    }
+    return worst;
+}
+
+TEST(kf15, gain_error_over_p0_over_r)
+{
+    struct Case
+    {
+        double p0, r, symmetric, factors; ///< bounds of the relative gain error; 1e9: none
+    };
+    const Case cases[] = {{1e2, 1e-4, INS_TOL(1e-11, 2e-3), INS_TOL(1e-12, 2e-4)},
+                          {1e4, 1e-4, INS_TOL(1e-11, 2e-3), INS_TOL(1e-12, 2e-4)},
+                          {1e8, 1e-4, INS_TOL(1e-11, 2e-3), INS_TOL(1e-12, 2e-4)}};
+    for (const Case& c : cases)
+    {
+        const double conventional = gain_error_of<Conventional>(c.p0, c.r);
+        const double symmetric = gain_error_of<Symmetric>(c.p0, c.r);
+        const double factors = gain_error_of<Factors>(c.p0, c.r);
+        std::printf("[ figure   ] P0/R %.0e: gain error conventional %.1e, symmetric %.1e, UD %.1e\n", c.p0 / c.r,
+                    conventional, symmetric, factors);
+        EXPECT_LE(factors, c.factors);
+        EXPECT_TRUE(symmetric <= c.symmetric || c.symmetric >= 1e9);
+    }
+}
+
 #ifndef INS_REAL_FLOAT // the differences of two drives drown in the rounding of float
 TEST(kf15, model_is_the_strapdowns_derivative)
 {

@@ -6,6 +6,8 @@
 #include "kalman_internal.h"
 #include "kf15_internal.h"
 
+#define KF15_FALL 128 ///< a variance that falls by more is put right: what is left of it has lost as many digits
+
 ins_status_t ins_kf15_init(ins_kf15_t* self, const ins_real sigma[INS_KF15_N])
 {
     for (unsigned i = 0; i < INS_KF15_N; i++)
@@ -88,12 +90,12 @@ void ins_kf15_propagate(ins_kf15_t* self, const ins_kf15_model_t* model)
 }
 
 /// P = P - K g with K = g / s. As sqrt(1/s) g times itself, it stays symmetric to the last bit.
-static void downdate(ins_kf15_t* self, const ins_real g[INS_KF15_ROW], ins_real s)
+static void downdate(ins_kf15_t* restrict self, const ins_real* restrict g, ins_real s)
 {
     const ins_real per_s = 1 / s;
     const ins_real root = ins_sqrt(per_s);
     ins_real w[INS_KF15_ROW];
-    for (unsigned j = 0; j < INS_KF15_ROW; j++)
+    for (unsigned j = 0; j < KF15_COLUMNS; j++)
     {
         self->K[j] = per_s * g[j];
         w[j] = root * g[j];
@@ -102,14 +104,25 @@ static void downdate(ins_kf15_t* self, const ins_real g[INS_KF15_ROW], ins_real 
     {
         ins_real* const row = self->P + i * INS_KF15_ROW;
         const ins_real a[5] = {w[i], w[i + 1], w[i + 2], w[i + 3], w[i + 4]};
-        for (unsigned j = 0; j < INS_KF15_ROW; j++)
+        for (unsigned j = INS_VECTORS ? 0 : i; j < KF15_COLUMNS; j++)
         {
-            const ins_real b = w[j];
-            row[0 * INS_KF15_ROW + j] -= a[0] * b;
-            row[1 * INS_KF15_ROW + j] -= a[1] * b;
-            row[2 * INS_KF15_ROW + j] -= a[2] * b;
-            row[3 * INS_KF15_ROW + j] -= a[3] * b;
-            row[4 * INS_KF15_ROW + j] -= a[4] * b;
+            const ins_real p[5] = {row[0 * INS_KF15_ROW + j] - a[0] * w[j], row[1 * INS_KF15_ROW + j] - a[1] * w[j],
+                                   row[2 * INS_KF15_ROW + j] - a[2] * w[j], row[3 * INS_KF15_ROW + j] - a[3] * w[j],
+                                   row[4 * INS_KF15_ROW + j] - a[4] * w[j]};
+            row[0 * INS_KF15_ROW + j] = p[0];
+            row[1 * INS_KF15_ROW + j] = p[1];
+            row[2 * INS_KF15_ROW + j] = p[2];
+            row[3 * INS_KF15_ROW + j] = p[3];
+            row[4 * INS_KF15_ROW + j] = p[4];
+            if (!INS_VECTORS && j >= i + 5)
+            {
+                ins_real* const mirror = self->P + j * INS_KF15_ROW + i;
+                mirror[0] = p[0];
+                mirror[1] = p[1];
+                mirror[2] = p[2];
+                mirror[3] = p[3];
+                mirror[4] = p[4];
+            }
         }
     }
 }
@@ -121,7 +134,7 @@ ins_status_t ins_kf15_update_state(ins_kf15_t* self, unsigned index, ins_innovat
         return INS_E_RANGE;
     }
     ins_real g[INS_KF15_ROW];
-    for (unsigned j = 0; j < INS_KF15_ROW; j++)
+    for (unsigned j = 0; j < KF15_COLUMNS; j++)
     {
         g[j] = self->P[index * INS_KF15_ROW + j];
     }
@@ -132,83 +145,114 @@ ins_status_t ins_kf15_update_state(ins_kf15_t* self, unsigned index, ins_innovat
     }
     downdate(self, g, g[index] + z->r);
     // What P h' = r K says, without the cancellation.
-    for (unsigned j = 0; j < INS_KF15_ROW; j++)
+    const ins_real r = z->r;
+    ins_real* const P = self->P;
+    for (unsigned j = 0; j < INS_KF15_N; j++)
     {
-        self->P[index * INS_KF15_ROW + j] = z->r * self->K[j];
-    }
-    for (unsigned i = 0; i < INS_KF15_N; i++)
-    {
-        self->P[i * INS_KF15_ROW + index] = z->r * self->K[i];
+        const ins_real p = r * self->K[j];
+        P[index * INS_KF15_ROW + j] = p;
+        P[j * INS_KF15_ROW + index] = p;
     }
     return INS_OK;
 }
 
-/// y = P h', by the rows where h is not 0.
-static void times(const ins_real* P, const ins_real h[INS_KF15_N], ins_real y[INS_KF15_ROW])
+/// A row of H without its zeros, filled up with some to a multiple of three.
+typedef struct kf15_row_t
 {
-    for (unsigned j = 0; j < INS_KF15_ROW; j++)
+    unsigned n;
+    unsigned at[INS_KF15_N];
+    ins_real h[INS_KF15_N];
+} kf15_row_t;
+
+/// y = P h'
+static void times(const ins_real* restrict P, const kf15_row_t* h, ins_real* restrict y)
+{
+    for (unsigned j = 0; j < KF15_COLUMNS; j++)
     {
         y[j] = 0;
     }
-    for (unsigned i = 0; i < INS_KF15_N; i++)
+    for (unsigned k = 0; k < h->n; k += 3)
     {
-        const ins_real h_i = h[i];
-        if (h_i != 0)
+        const ins_real* const row0 = P + h->at[k] * INS_KF15_ROW;
+        const ins_real* const row1 = P + h->at[k + 1] * INS_KF15_ROW;
+        const ins_real* const row2 = P + h->at[k + 2] * INS_KF15_ROW;
+        const ins_real h0 = h->h[k];
+        const ins_real h1 = h->h[k + 1];
+        const ins_real h2 = h->h[k + 2];
+        for (unsigned j = 0; j < KF15_COLUMNS; j++)
         {
-            for (unsigned j = 0; j < INS_KF15_ROW; j++)
-            {
-                y[j] += h_i * P[i * INS_KF15_ROW + j];
-            }
+            y[j] += h0 * row0[j] + h1 * row1[j] + h2 * row2[j];
         }
+    }
+}
+
+/// h x
+static ins_real inner(const kf15_row_t* h, const ins_real x[INS_KF15_N])
+{
+    ins_real sum = 0;
+    for (unsigned k = 0; k < h->n; k++)
+    {
+        sum += h->h[k] * x[h->at[k]];
+    }
+    return sum;
+}
+
+/// Rounding leaves P h' off r K by what is lost of the large elements: it goes into the row and the column that had the most to lose.
+static void restore(ins_kf15_t* self, const kf15_row_t* h, unsigned pivot, ins_real h_pivot, ins_real r)
+{
+    ins_real x[INS_KF15_ROW];
+    ins_real* const P = self->P;
+    const ins_real per_h = 1 / h_pivot;
+    times(P, h, x);
+    for (unsigned j = 0; j < KF15_COLUMNS; j++)
+    {
+        x[j] = per_h * (r * self->K[j] - x[j]);
+    }
+    x[pivot] += x[pivot] - per_h * inner(h, x);
+    for (unsigned j = 0; j < INS_KF15_N; j++)
+    {
+        const ins_real p = P[pivot * INS_KF15_ROW + j] + x[j];
+        P[pivot * INS_KF15_ROW + j] = p;
+        P[j * INS_KF15_ROW + pivot] = p;
     }
 }
 
 ins_status_t ins_kf15_update(ins_kf15_t* self, const ins_real h[INS_KF15_N], ins_innovation_t* z)
 {
+    kf15_row_t row;
     ins_real g[INS_KF15_ROW];
-    ins_real hph = 0;
     ins_real most = 0;
-    unsigned pivot = INS_KF15_N;
-    times(self->P, h, g);
+    unsigned pivot = 0;
+    row.n = 0;
     for (unsigned i = 0; i < INS_KF15_N; i++)
     {
-        const ins_real own = h[i] * h[i] * self->P[i * (INS_KF15_ROW + 1)];
-        hph += h[i] * g[i];
-        if (own > most)
+        if (h[i] != 0)
         {
-            most = own;
-            pivot = i;
+            const ins_real own = h[i] * h[i] * self->P[i * (INS_KF15_ROW + 1)];
+            pivot = own > most ? i : pivot;
+            most = own > most ? own : most;
+            row.at[row.n] = i;
+            row.h[row.n] = h[i];
+            row.n++;
         }
     }
+    while (row.n % 3 != 0)
+    {
+        row.at[row.n] = 0;
+        row.h[row.n] = 0;
+        row.n++;
+    }
+    times(self->P, &row, g);
+    const ins_real hph = inner(&row, g);
     const ins_status_t status = kalman_judge(z, hph);
     if (status != INS_OK)
     {
         return status;
     }
     downdate(self, g, hph + z->r);
-    if (pivot == INS_KF15_N) // nothing is known about what was measured but that it is certain
+    if (hph > KF15_FALL * z->r)
     {
-        return INS_OK;
-    }
-    // P h' = r K holds without rounding; what is missing goes into the row and the column that had the most to lose.
-    ins_real rest[INS_KF15_ROW];
-    times(self->P, h, rest);
-    const ins_real per_h = 1 / h[pivot];
-    ins_real own = 0;
-    for (unsigned j = 0; j < INS_KF15_ROW; j++)
-    {
-        rest[j] = per_h * (z->r * self->K[j] - rest[j]);
-    }
-    for (unsigned i = 0; i < INS_KF15_N; i++)
-    {
-        own += h[i] * rest[i];
-    }
-    rest[pivot] += per_h * (h[pivot] * rest[pivot] - own);
-    for (unsigned j = 0; j < INS_KF15_N; j++)
-    {
-        const ins_real p = self->P[pivot * INS_KF15_ROW + j] + rest[j];
-        self->P[pivot * INS_KF15_ROW + j] = p;
-        self->P[j * INS_KF15_ROW + pivot] = p;
+        restore(self, &row, pivot, h[pivot], z->r);
     }
     return INS_OK;
 }

@@ -7,6 +7,9 @@
 #define INS_KF15_INTERNAL_H_INCLUDED
 #include "ins/kf15.h"
 
+/// Elements of a row that loops go over: the one beyond the last is 0, and stays so.
+#define KF15_COLUMNS (INS_VECTORS ? INS_KF15_ROW : INS_KF15_N)
+
 /// (C_nb dt b)(i), b the first of three biases.
 static inline ins_real kf15_bias(const ins_kf15_model_t* m, unsigned i, const ins_real* b, unsigned d)
 {
@@ -46,19 +49,19 @@ static inline ins_real kf15_position(const ins_kf15_model_t* m, unsigned i, cons
 static inline void kf15_turn(const ins_kf15_model_t* m, const ins_real* restrict P, ins_real* restrict T,
                              unsigned pitch)
 {
-    for (unsigned j = 0; j < INS_KF15_ROW; j++)
+    for (unsigned j = 0; j < KF15_COLUMNS; j++)
     {
         T[0 * pitch + j] = kf15_attitude(m, 0, P + j, INS_KF15_ROW);
         T[1 * pitch + j] = kf15_attitude(m, 1, P + j, INS_KF15_ROW);
         T[2 * pitch + j] = kf15_attitude(m, 2, P + j, INS_KF15_ROW);
     }
-    for (unsigned j = 0; j < INS_KF15_ROW; j++)
+    for (unsigned j = 0; j < KF15_COLUMNS; j++)
     {
         T[3 * pitch + j] = kf15_velocity(m, 0, P + j, INS_KF15_ROW);
         T[4 * pitch + j] = kf15_velocity(m, 1, P + j, INS_KF15_ROW);
         T[5 * pitch + j] = kf15_velocity(m, 2, P + j, INS_KF15_ROW);
     }
-    for (unsigned j = 0; j < INS_KF15_ROW; j++)
+    for (unsigned j = 0; j < KF15_COLUMNS; j++)
     {
         T[6 * pitch + j] = kf15_position(m, 0, P + j, INS_KF15_ROW);
         T[7 * pitch + j] = kf15_position(m, 1, P + j, INS_KF15_ROW);

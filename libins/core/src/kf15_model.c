@@ -18,12 +18,11 @@ ins_status_t ins_kf15_model_init(ins_kf15_model_t* self, ins_real dt, const ins_
     {
         return INS_E_RANGE;
     }
-    const ins_kf15_model_t start = {.dt = dt,
-                                    .q_phi = sensors->arw * sensors->arw * dt,
-                                    .q_v = sensors->vrw * sensors->vrw * dt,
-                                    .bg = bg,
-                                    .ba = ba};
+    const ins_kf15_model_t start = {
+        .dt = dt, .q_phi = sensors->arw * sensors->arw * dt, .q_v = sensors->vrw * sensors->vrw * dt};
     *self = start;
+    self->bg = bg;
+    self->ba = ba;
     return INS_OK;
 }
 

@@ -54,8 +54,7 @@ void ins_kf15_ud_covariance(const ins_kf15_ud_t* self, ins_real P[INS_KF15_N * I
 static ins_real add_noise(ins_kf15_ud_t* self, unsigned from, ins_real q, ins_real* W)
 {
     ins_real a[INS_KF15_N] = {0};
-    ins_real a_of[INS_KF15_N];
-    ins_real b_of[INS_KF15_N];
+    ins_real b_of[INS_KF15_N] = {0};
     ins_real weight = q;
     a[from] = 1;
     for (unsigned j = from + 1; j-- > KF15_NAV;)
@@ -67,7 +66,6 @@ static ins_real add_noise(ins_kf15_ud_t* self, unsigned from, ins_real q, ins_re
         const ins_real b = a_j * per_d;
         weight = d > 0 ? self->D[j] * per_d : weight;
         self->D[j] = d;
-        a_of[j] = a_j;
         b_of[j] = b;
         for (unsigned i = KF15_NAV - 1; i < j; i++)
         {
@@ -87,7 +85,7 @@ static ins_real add_noise(ins_kf15_ud_t* self, unsigned from, ins_real q, ins_re
     for (unsigned j = from + 1; j-- > KF15_NAV;)
     {
         ins_real* const u = self->U + j * INS_KF15_ROW;
-        const ins_real a_j = a_of[j];
+        const ins_real a_j = a[j];
         const ins_real b = b_of[j];
         a0 -= a_j * u[0];
         a1 -= a_j * u[1];
@@ -201,7 +199,7 @@ void ins_kf15_ud_propagate(ins_kf15_ud_t* self, const ins_kf15_model_t* model)
     kf15_turn(model, R, W, KF15_WIDTH);
     for (unsigned i = 0; i < KF15_NAV; i++)
     {
-        for (unsigned k = INS_KF15_ROW; k < KF15_WIDTH; k++)
+        for (unsigned k = INS_KF15_N; k < KF15_WIDTH; k++)
         {
             W[i * KF15_WIDTH + k] = 0;
         }
@@ -255,6 +253,7 @@ static ins_status_t bierman(ins_kf15_ud_t* self, unsigned first, const ins_real 
     for (unsigned j = first; j < INS_KF15_N; j++)
     {
         const ins_real before = alpha;
+        // cppcheck-suppress uninitvar  // it does not see that both begin at first
         g[j] = self->D[j] * f[j];
         lambda[j] = f[j] * per_alpha;
         alpha -= f[j] * g[j];

@@ -34,6 +34,14 @@ typedef double ins_real;
 #define INS_API
 #endif
 
+/// 1 where compilers take two or four reals at once without being asked: whole rows of a symmetric matrix then cost less than half of
+/// them and a copy. The bits are the same.
+#if defined(__SSE2__) || defined(__ARM_NEON)
+#define INS_VECTORS 1
+#else
+#define INS_VECTORS 0
+#endif
+
 /// One octet on a wire, 0..255, in whatever the machine's smallest integer is (16 bits on a C28x): mask on every store.
 typedef uint_least8_t ins_octet_t;
 
