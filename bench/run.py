@@ -130,6 +130,12 @@ def measure() -> list[Row]:
         if not f2812.exists():
             raise SystemExit(f"{script.name} gave no figures (exit code {done.returncode})")
         rows += json.loads(f2812.read_text())
+        calib = Path(folder) / "calib.json"
+        script = ROOT / "bench/calib/bench_calib.py"
+        done = subprocess.run([sys.executable, script, "--json", calib])
+        if not calib.exists():
+            raise SystemExit(f"{script.name} gave no figures (exit code {done.returncode})")
+        rows += json.loads(calib.read_text())
         targets = Path(folder) / "targets.json"
         subprocess.run([sys.executable, ROOT / "bench/targets/measure.py", "--json", targets], check=True)
         rows += json.loads(targets.read_text())

@@ -13,7 +13,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from libins import campaign, debug_cli, endpoint, report, run, scenario, seeing, sim_cli
+from libins import calib_cli, campaign, debug_cli, endpoint, report, run, scenario, seeing, sim_cli
 from libins.errors import CrashError, UsageError
 from libins.program import CONSOLES, Program, address, exit_place
 from libins.tables import PACKAGE, Loaded
@@ -115,6 +115,9 @@ def parser() -> argparse.ArgumentParser:
     debug_cli.options(g)
 
     sim_cli.options(commands.add_parser("sim", help="a known motion and what sensors on it say, as CSV"))
+    calib_cli.options(
+        commands.add_parser("calib", help="calibrate accelerometers, or a triad with gyros, from readings in poses")
+    )
 
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
 
@@ -388,6 +391,7 @@ def main(arguments: list[str] | None = None) -> int:
             "campaign": campaign.command,
             "debug": debug_cli.run,
             "sim": sim_cli.run,
+            "calib": calib_cli.run,
             "sub": _sub_command,
         }
         return commands[options.command](options)
