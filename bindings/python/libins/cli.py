@@ -13,7 +13,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from libins import calib_cli, campaign, debug_cli, endpoint, report, run, scenario, seeing, sim_cli
+from libins import calib_cli, campaign, debug_cli, endpoint, replay_cli, report, run, scenario, seeing, sim_cli
 from libins.errors import CrashError, UsageError
 from libins.program import CONSOLES, Program, address, exit_place
 from libins.tables import PACKAGE, Loaded
@@ -119,9 +119,14 @@ def parser() -> argparse.ArgumentParser:
         commands.add_parser("calib", help="calibrate accelerometers, or a triad with gyros, from readings in poses")
     )
 
+    p = commands.add_parser("replay", help="run a recorded drive through a filter: docs/replay.md")
+    replay_cli.options(p)
+    _dds_options(p)
+
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
 
     s = commands.add_parser("sub", help="print navigation states that arrive over DDS, one line of JSON each")
+    s.add_argument("--solution", action="store_true", help="positions (NavSolution) instead of states (NavState)")
     s.add_argument("--limit", type=int, metavar="N", help="stop after N states")
     s.add_argument("--timeout-s", type=float, metavar="S", help="exit 1 when nothing arrives for so long")
     s.add_argument("--exclusive", action="store_true", help="of publishers with --strength the strongest alive")
@@ -192,11 +197,12 @@ def _dds_module(options: argparse.Namespace) -> tuple[Any, str | None]:
         raise UsageError(f"{options.dds_config}: cannot be read: {error.strerror}") from error
 
 
-def open_dds(options: argparse.Namespace, publishes: bool, exclusive: bool = False) -> Any:
-    """A DDS handle from the command line's options. Raises UsageError."""
+def open_dds(options: argparse.Namespace, publishes: bool, exclusive: bool = False, solution: bool = False) -> Any:
+    """A DDS handle from the command line's options, for states, or for solutions. Raises UsageError."""
     _dds, xml = _dds_module(options)
     try:
-        return _dds.Handle(options.domain, options.topic or _dds.TOPIC, xml, publishes, exclusive)
+        topic = options.topic or (_dds.SOLUTION_TOPIC if solution else _dds.TOPIC)
+        return _dds.Handle(options.domain, topic, xml, publishes, exclusive, solution)
     except RuntimeError as error:
         raise UsageError(f"DDS: {error}") from error
 
@@ -353,7 +359,7 @@ def navd_path() -> Path:
 
 
 def _sub_command(options: argparse.Namespace) -> int:
-    handle = open_dds(options, publishes=False, exclusive=options.exclusive)
+    handle = open_dds(options, publishes=False, exclusive=options.exclusive, solution=options.solution)
     count = 0
     gone: set[str] = set()
     last = time.monotonic()
@@ -390,6 +396,7 @@ def main(arguments: list[str] | None = None) -> int:
             "run": _run_command,
             "campaign": campaign.command,
             "debug": debug_cli.run,
+            "replay": replay_cli.run,
             "sim": sim_cli.run,
             "calib": calib_cli.run,
             "sub": _sub_command,

@@ -2,10 +2,12 @@
 /// \brief  The Python module libins._dds: publisher and subscriber over libins_dds, ROS 2 topics. SPDX-License-Identifier: MIT
 #include "ins_dds/dds.h"
 #include "ins_dds/ros.h"
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <memory>
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <optional>
@@ -23,12 +25,14 @@ class Handle
 {
   public:
     Handle(uint32_t domain, const std::string& topic, const std::optional<std::string>& xml, bool publishes,
-           bool exclusive)
+           bool exclusive, bool solution)
+        : solution_(solution)
     {
         ins_dds_config_t cfg;
         ins_dds_config_default(&cfg);
         cfg.domain = domain;
         cfg.topic = topic.c_str();
+        cfg.kind = solution ? INS_DDS_SOLUTION : INS_DDS_STATE;
         cfg.network = xml ? INS_DDS_XML : INS_DDS_LOOPBACK;
         cfg.xml = xml ? xml->c_str() : nullptr;
         cfg.publishes = publishes ? 1 : 0;
@@ -58,8 +62,11 @@ class Handle
         return self_;
     }
 
+    bool solution() const { return solution_; }
+
   private:
     ins_dds_t* self_ = nullptr;
+    bool solution_;
 };
 
 /// A ROS 2 node "libins". It joins the domain if a Handle of this process has it; then it must be closed first.
@@ -142,6 +149,24 @@ void publish_ros(Node& node, const nb::bytes& raw, int64_t time_ns)
     checked(ins_ros_publish(node.get(), &navigation));
 }
 
+/// A solution that no board sent: without a grid.
+void publish_solution(Handle& handle, uint64_t index, double t_s, const std::array<double, 4>& q_nb,
+                      const std::array<double, 3>& euler, const std::array<double, 2>& lat_lon,
+                      const std::array<double, 2>& v_en, double fix_age_s, const std::string& source,
+                      int64_t published_ns)
+{
+    ins_nav_solution_t solution{};
+    solution.index = index;
+    solution.t_s = t_s;
+    std::copy(q_nb.begin(), q_nb.end(), solution.q_nb);
+    std::copy(euler.begin(), euler.end(), solution.euler_rad);
+    std::copy(lat_lon.begin(), lat_lon.end(), solution.lat_lon_rad);
+    std::copy(v_en.begin(), v_en.end(), solution.v_en_m_s);
+    solution.fix_age_s = fix_age_s;
+    solution.status = INS_NAV_BLOCK_ALIGNED | INS_NAV_BLOCK_POSITION | INS_NAV_BLOCK_FILTER;
+    checked(ins_dds_publish_solution(handle.get(), &solution, source.c_str(), published_ns));
+}
+
 /// Samples as dictionaries: source, published_ns, gone, and the state as its line of JSON.
 nb::list take(Handle& handle, double timeout_s)
 {
@@ -162,7 +187,14 @@ nb::list take(Handle& handle, double timeout_s)
         d["gone"] = samples[i].gone != 0;
         if (samples[i].valid != 0)
         {
-            ins_nav_state_json(&samples[i].state, json.data(), json.size());
+            if (handle.solution())
+            {
+                ins_nav_solution_json(&samples[i].solution, json.data(), json.size());
+            }
+            else
+            {
+                ins_nav_state_json(&samples[i].state, json.data(), json.size());
+            }
             d["json"] = json.data();
         }
         list.append(d);
@@ -176,10 +208,13 @@ NB_MODULE(_dds, m)
 {
     m.doc() = "Navigation states over DDS; see ins_dds/dds.h.";
     m.attr("TOPIC") = INS_DDS_TOPIC;
+    m.attr("SOLUTION_TOPIC") = INS_DDS_SOLUTION_TOPIC;
     nb::class_<Handle>(m, "Handle")
-        .def(nb::init<uint32_t, const std::string&, const std::optional<std::string>&, bool, bool>(), "domain"_a,
-             "topic"_a, "xml"_a.none(), "publishes"_a, "exclusive"_a = false)
+        .def(nb::init<uint32_t, const std::string&, const std::optional<std::string>&, bool, bool, bool>(), "domain"_a,
+             "topic"_a, "xml"_a.none(), "publishes"_a, "exclusive"_a = false, "solution"_a = false)
         .def("publish", publish, "state"_a, "source"_a, "published_ns"_a)
+        .def("publish_solution", publish_solution, "index"_a, "t_s"_a, "q_nb"_a, "euler_rad"_a, "lat_lon_rad"_a,
+             "v_en_m_s"_a, "fix_age_s"_a, "source"_a, "published_ns"_a)
         .def("take", take, "timeout_s"_a)
         .def("matched", [](const Handle& self) { return checked(ins_dds_matched(self.get())); })
         .def("close", &Handle::close);

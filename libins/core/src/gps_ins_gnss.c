@@ -233,16 +233,11 @@ ins_status_t ins_gps_ins_gnss(ins_gps_ins_t* self, const ins_gnss_fix_t* fix)
     const int moves = use(self, &e, 3, c->gate_velocity, &self->check.nis_velocity, &used);
     self->count.fix_position += !fits;
     self->count.fix_velocity += !moves;
-    if (used > 0)
-    {
-        self->count.fixes++;
-        self->refused = 0;
-        return INS_OK;
-    }
-    self->refused++;
+    self->count.fixes += used > 0;
+    self->refused = (uint16_t)(fits && moves ? 0 : self->refused + 1);
     if (c->refused_max > 0 && self->refused > c->refused_max)
     {
         doubt(self, fix);
     }
-    return INS_E_GATE;
+    return used > 0 ? INS_OK : INS_E_GATE;
 }

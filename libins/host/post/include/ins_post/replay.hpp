@@ -22,13 +22,16 @@ using Vec3 = std::array<double, 3>;
 /// Integrals of angular rate and specific force over the period that ends now.
 struct Increment
 {
-    Vec3 theta_b; ///< [rad]
-    Vec3 v_b;     ///< [m/s]
+    double period; ///< [s]
+    Vec3 theta_b;  ///< [rad]
+    Vec3 v_b;      ///< [m/s]
 };
 
 /// What a receiver says of its antenna. A standard deviation of 0: this figure is not known, and not used.
 struct Fix
 {
+    double t;      ///< of which it is, not later than its event [s]
+    double t_v;    ///< of which its velocity is, not later than t [s]
     Vec3 position; ///< latitude, longitude [rad], height above the ellipsoid [m]
     Vec3 sigma_p;  ///< north, east, down [m]
     Vec3 v_n;      ///< [m/s]
@@ -46,6 +49,7 @@ struct Wheels
     double yaw_rate; ///< right turn positive [rad/s]
 };
 
+/// When a filter gets to know of it.
 struct Event
 {
     double t; ///< [s]

@@ -1,0 +1,130 @@
+"""The command `ins replay`: a recorded drive through a filter, and what came of it as files."""
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+from libins.errors import UsageError
+from libins.schema import Document
+from libins.whole_file import write
+
+FIX_AGE_MAX_S = 25.5
+"""As NavSolution has it: that, or longer, or none."""
+FILES = ("csv", "kml", "geojson", "html", "json")
+
+
+def options(parser: argparse.ArgumentParser) -> None:
+    """The command's grammar."""
+    parser.add_argument("config", type=Path, metavar="CONFIG.toml", help="docs/replay.md lists its keys")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="KEY=VALUE",
+        help="another value for a key of the configuration, for example outages.length_s=30",
+    )  # fmt: skip
+    parser.add_argument("--smooth", action="store_true", help="run the fixed-interval smoother as well")
+    helps = {
+        "csv": "write the solution: time, position, velocity, attitude, biases, standard deviations",
+        "kml": "write the path for a globe",
+        "geojson": "write the path for a map",
+        "html": "write a report with map, errors, outages and innovations",
+        "json": "write the summary ('-': standard output)",
+    }
+    for name, text in helps.items():
+        parser.add_argument(f"--{name}", type=Path, metavar=f"F.{name}", help=text)
+    parser.add_argument("--dds", action="store_true", help="publish the solution as NavSolution, paced by --speed")
+    parser.add_argument(
+        "--speed", type=float, default=1.0, metavar="X", help="with --dds: recorded seconds a second (1)"
+    )
+
+
+def run(args: argparse.Namespace) -> int:
+    """Exit code 0; raises UsageError."""
+    from libins import replay, replay_config, replay_files, replay_score, scenario
+
+    overrides = dict(map(scenario.setting, args.set))
+    config = replay_config.load(args.config, overrides | ({"smooth": True} if args.smooth else {}))
+    places = {name: _place(args, config, name) for name in FILES}
+    if places["html"] is not None:
+        page = _page()
+    if not args.speed > 0.0:
+        raise UsageError(f"--speed {args.speed}: a number above 0 is needed")
+    handle = _dds(args) if args.dds else None
+    try:
+        drive = replay.read(config, args.config.parent)
+        with Progress(
+            TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"),
+            TimeRemainingColumn(), console=Console(stderr=True), transient=True,
+        ) as bar:  # fmt: skip
+            task = bar.add_task(args.config.stem, total=1.0)
+            solution = replay.solve(config, drive, lambda share: bar.update(task, completed=share))
+        result = replay_score.summary(config, drive, solution)
+        states = solution.runs[0].states if solution.runs[0].smoothed is None else solution.runs[0].smoothed
+        hidden = replay.within(states[:, 0], solution.spans[0])
+        makers: dict[str, Callable[[], str]] = {
+            "csv": lambda: replay_files.csv(states, drive.epoch_s, hidden),
+            "kml": lambda: replay_files.kml(states, hidden, args.config.stem),
+            "geojson": lambda: replay_files.geojson(states, hidden, {"name": args.config.stem}),
+            "html": lambda: page.html(args.config.stem, Document(args.config).text, result, drive, solution),
+            "json": lambda: json.dumps(result, indent=2) + "\n",
+        }
+        for name, path in places.items():
+            if path is not None:
+                write(path, makers[name]())
+        if str(places["json"]) != "-":
+            print(replay_score.text(result))
+        if handle is not None:
+            _publish(handle, solution.runs[0], args.config.stem, args.speed)
+    finally:
+        if handle is not None:
+            handle.close()
+    return 0
+
+
+def _place(args: argparse.Namespace, config: Any, name: str) -> Path | None:
+    """The option's, or that of the configuration, which lies beside it."""
+    given: Path | None = getattr(args, name)
+    configured = getattr(config.output, name)
+    return given if given is not None or configured is None else args.config.parent / configured
+
+
+def _page() -> Any:
+    """Missing before the replay rather than after it."""
+    try:
+        from libins import replay_page
+    except ImportError as error:
+        raise UsageError(f"--html needs {error.name}: pip install 'libins[report]'") from error
+    return replay_page
+
+
+def _dds(args: argparse.Namespace) -> Any:
+    from libins.cli import open_dds
+
+    return open_dds(args, publishes=True, solution=True)
+
+
+def _publish(handle: Any, run_: Any, source: str, speed: float) -> None:
+    """Each state at its time."""
+    from libins import core
+    from libins.replay import CHECK, STATE
+
+    states, checks = run_.states, run_.checks
+    used = checks[(checks[:, CHECK["withheld"]] == 0) & (checks[:, CHECK["refused"]] == 0), CHECK["t_s"]]
+    fix = np.searchsorted(used, states[:, 0], side="right") - 1
+    ages = np.where(fix >= 0, states[:, 0] - used[np.maximum(fix, 0)] if len(used) else np.inf, np.inf)
+    begin = time.monotonic()
+    for index, (state, age) in enumerate(zip(states.tolist(), np.minimum(ages, FIX_AGE_MAX_S).tolist(), strict=True)):
+        wait = begin + (state[0] - states[0, 0]) / speed - time.monotonic()
+        if wait > 0.0:
+            time.sleep(wait)
+        q = state[STATE["q_w"] : STATE["q_z"] + 1]
+        v_en = [state[STATE["v_e_m_s"]], state[STATE["v_n_m_s"]]]
+        euler = core.quat_to_euler(q).tolist()
+        handle.publish_solution(index, state[0], q, euler, state[1:3], v_en, age, source, time.time_ns())
+    print(f"dds       {len(states)} published", file=sys.stderr)

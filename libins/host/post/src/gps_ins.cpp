@@ -1,0 +1,241 @@
+/// \file   gps_ins.cpp
+/// \brief  ins_post/gps_ins.hpp: events to ins/gps_ins.h. SPDX-License-Identifier: MIT
+#include "ins_post/gps_ins.hpp"
+#include "post_internal.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace ins_post
+{
+namespace
+{
+constexpr double NS_PER_S = 1e9;
+constexpr double PAST_S = 0.5; // of the antenna
+constexpr double NOTHING = std::numeric_limits<double>::quiet_NaN();
+
+int64_t nanoseconds(double t)
+{
+    return std::llround(t * NS_PER_S);
+}
+
+ins_position_t place(const Vec3& llh)
+{
+    return {{llh[0], llh[1], llh[2]}, {0.0, 0.0, 0.0}};
+}
+} // namespace
+
+GpsIns::GpsIns(const ins_gps_ins_config_t& config, const ins_gps_ins_start_t& start, const GpsInsOptions& options)
+    : n_(), options_(options), start_ns_(start.t_ns)
+{
+    if (ins_gps_ins_init(&n_, &config, &start) != INS_OK)
+    {
+        throw std::invalid_argument("GpsIns: a figure of the configuration or of the start is out of its range");
+    }
+    t_ = static_cast<double>(start.t_ns) / NS_PER_S;
+    nhc_due_ = node_due_ = t_;
+    Phi_ = identity();
+}
+
+void GpsIns::keep_before(double t, const ins_gps_ins_t& predicted)
+{
+    if (options_.node_period > 0.0 && (nodes_.empty() || nodes_.back().t < t))
+    {
+        nodes_.push_back({t, nominal(predicted), {}, square(predicted.kf), {}, Phi_});
+        Phi_ = identity();
+        node_due_ = t + options_.node_period;
+    }
+}
+
+void GpsIns::keep_after()
+{
+    if (options_.node_period > 0.0)
+    {
+        nodes_.back().after = nominal(n_);
+        nodes_.back().P_after = square(n_.kf);
+    }
+}
+
+void GpsIns::aid(double t, ins_status_t (*how)(ins_gps_ins_t*))
+{
+    keep_before(t, n_);
+    (void)how(&n_); // refusals are in n_.count
+    keep_after();
+}
+
+void GpsIns::increment(double t, const Increment& increment)
+{
+    if (nanoseconds(t) <= start_ns_)
+    {
+        return;
+    }
+    started_ = true;
+    const ins_increment_t in = {{increment.theta_b[0], increment.theta_b[1], increment.theta_b[2]},
+                                {increment.v_b[0], increment.v_b[1], increment.v_b[2]}};
+    const ins_gps_ins_t before = n_;
+    if (ins_gps_ins_step(&n_, nanoseconds(t), increment.period, &in) < 0)
+    {
+        return;
+    }
+    t_ = t;
+    for (size_t i = 0; i < w_ib_b_.size(); i++)
+    {
+        w_ib_b_[i] = increment.theta_b[i] / increment.period - n_.gyro_bias[i];
+    }
+    past_.push_back(antenna());
+    while (past_.front().t < t - PAST_S)
+    {
+        past_.pop_front();
+    }
+    if (options_.node_period > 0.0)
+    {
+        Phi_ = product(transition(n_.model), Phi_);
+        if (n_.count.rests != before.count.rests)
+        {
+            ins_gps_ins_t predicted = before;
+            predicted.cfg.still.samples = predicted.still.cfg.samples = 0;
+            (void)ins_gps_ins_step(&predicted, nanoseconds(t), increment.period, &in);
+            keep_before(t, predicted);
+            keep_after();
+        }
+    }
+    if (options_.nhc_period > 0.0 && t >= nhc_due_)
+    {
+        nhc_due_ = t + options_.nhc_period;
+        aid(t, ins_gps_ins_nhc);
+    }
+    if (options_.node_period > 0.0 && t >= node_due_)
+    {
+        keep_before(t, n_);
+        keep_after();
+    }
+}
+
+void GpsIns::wheels(double t, const Wheels& wheels)
+{
+    if (!started_)
+    {
+        return;
+    }
+    keep_before(t, n_);
+    if (std::isfinite(wheels.speed))
+    {
+        (void)ins_gps_ins_odometer(&n_, wheels.speed, options_.wheels_sigma);
+    }
+    if (std::isfinite(wheels.yaw_rate))
+    {
+        (void)ins_gps_ins_yaw_rate(&n_, wheels.yaw_rate, options_.yaw_rate_sigma);
+    }
+    keep_after();
+}
+
+Instant GpsIns::antenna() const
+{
+    Instant now{};
+    now.t = t_;
+    ins_strapdown_point(&n_.nav, n_.cfg.antenna_b, w_ib_b_.data(), now.v_n.data(), &now.position);
+    return now;
+}
+
+Instant GpsIns::recall(double t) const
+{
+    const auto later = std::find_if(past_.begin(), past_.end(), [&](const Instant& at) { return at.t >= t; });
+    if (later == past_.begin() || later == past_.end())
+    {
+        return later == past_.end() ? past_.back() : past_.front();
+    }
+    const Instant& a = *(later - 1);
+    const Instant& b = *later;
+    const double share = (t - a.t) / (b.t - a.t);
+    Instant at = a;
+    Vec3 step;
+    ins_position_difference(&a.position, &b.position, step.data());
+    for (size_t i = 0; i < step.size(); i++)
+    {
+        step[i] *= share;
+        at.v_n[i] += share * (b.v_n[i] - a.v_n[i]);
+    }
+    move(at.position, step);
+    return at;
+}
+
+Check GpsIns::fix(double t, const Fix& fix)
+{
+    Check check{};
+    check.nis.fill(NOTHING);
+    if (!started_)
+    {
+        return check;
+    }
+    const Instant then = recall(fix.t);
+    const Instant earlier = recall(fix.t_v);
+    const Instant before = antenna();
+    const ins_position_t given = place(fix.position);
+    ins_position_difference(&given, &then.position, check.dp_before.data());
+    Vec3 v_n;
+    for (size_t i = 0; i < v_n.size(); i++)
+    {
+        v_n[i] = fix.v_n[i] + then.v_n[i] - earlier.v_n[i]; // brought to fix.t by the IMU
+        check.dv_before[i] = then.v_n[i] - v_n[i];
+    }
+    aided_ = false;
+    if (!fix.withheld)
+    {
+        ins_gnss_fix_t in{};
+        in.t_ns = nanoseconds(fix.t);
+        in.position = place(fix.position);
+        std::copy(v_n.begin(), v_n.end(), in.v_n);
+        std::copy(fix.sigma_p.begin(), fix.sigma_p.end(), in.sigma_p);
+        std::copy(fix.sigma_v.begin(), fix.sigma_v.end(), in.sigma_v);
+        const ins_gps_ins_count_t counted = n_.count;
+        keep_before(t, n_);
+        const ins_status_t status = ins_gps_ins_gnss(&n_, &in);
+        keep_after();
+        aided_ = status == INS_OK;
+        const unsigned position = status == INS_E_RANGE || n_.count.fix_position != counted.fix_position ? 7U : 0U;
+        const unsigned velocity = status == INS_E_RANGE || n_.count.fix_velocity != counted.fix_velocity ? 7U : 0U;
+        check.refused = position | velocity << 3;
+        for (size_t i = 0; i < check.nis.size() && status != INS_E_RANGE; i++)
+        {
+            const double sigma = i < 3 ? fix.sigma_p[i] : fix.sigma_v[i - 3];
+            check.nis[i] = sigma > 0.0 ? n_.check.nis[i] : NOTHING;
+        }
+    }
+    const Instant after = antenna();
+    Vec3 moved;
+    ins_position_difference(&before.position, &after.position, moved.data());
+    for (size_t i = 0; i < moved.size(); i++)
+    {
+        check.dp_after[i] = check.dp_before[i] + moved[i];
+        check.dv_after[i] = check.dv_before[i] + after.v_n[i] - before.v_n[i];
+        if (!(fix.sigma_p[i] > 0.0))
+        {
+            check.dp_before[i] = check.dp_after[i] = NOTHING;
+        }
+        if (!(fix.sigma_v[i] > 0.0))
+        {
+            check.dv_before[i] = check.dv_after[i] = NOTHING;
+        }
+    }
+    return check;
+}
+
+std::vector<Node> GpsIns::nodes() const
+{
+    std::vector<Node> kept = nodes_;
+    if (!kept.empty() && kept.back().t < t_)
+    {
+        kept.push_back({t_, nominal(n_), nominal(n_), square(n_.kf), square(n_.kf), Phi_});
+    }
+    return kept;
+}
+
+State GpsIns::state() const
+{
+    State state = described(t_, nominal(n_), square(n_.kf));
+    state.aided = aided_;
+    return state;
+}
+
+} // namespace ins_post
