@@ -1,4 +1,4 @@
-// dds_unit DOMAIN STRENGTH LEASE_S: one of several units that publish the source "vehicle", a state each ms until it is killed; seq is
+// dds_unit DOMAIN STRENGTH LEASE_S [SECURITY_FOLDER]: one of several units that publish the source "vehicle", a state each ms until it is killed; seq is
 // its strength.
 // SPDX-License-Identifier: MIT
 #include "ins_dds/dds.h"
@@ -9,13 +9,19 @@
 
 int main(int argc, char** argv)
 {
-    if (argc != 4)
+    if (argc < 4)
     {
         return 2;
     }
     ins_dds_config_t cfg;
     ins_dds_t* dds;
+    ins_dds_security_t security;
+    char paths[INS_DDS_SECURITY_MEMORY];
     ins_dds_config_default(&cfg);
+    if (argc > 4 && ins_dds_security_folder(argv[4], &security, paths) == INS_DDS_OK)
+    {
+        cfg.security = &security;
+    }
     cfg.domain = (uint32_t)strtoul(argv[1], NULL, 10);
     cfg.strength = (int32_t)strtol(argv[2], NULL, 10);
     cfg.lease_s = strtod(argv[3], NULL);

@@ -13,7 +13,19 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from libins import calib_cli, campaign, debug_cli, endpoint, replay_cli, report, run, scenario, seeing, sim_cli
+from libins import (
+    calib_cli,
+    campaign,
+    debug_cli,
+    endpoint,
+    keys_cli,
+    replay_cli,
+    report,
+    run,
+    scenario,
+    seeing,
+    sim_cli,
+)
 from libins.errors import CrashError, UsageError
 from libins.program import CONSOLES, Program, address, exit_place
 from libins.tables import PACKAGE, Loaded
@@ -125,6 +137,8 @@ def parser() -> argparse.ArgumentParser:
 
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
 
+    keys_cli.options(commands.add_parser("keys", help="make certificates and permissions for DDS Security"))
+
     s = commands.add_parser("sub", help="print navigation states that arrive over DDS, one line of JSON each")
     s.add_argument("--solution", action="store_true", help="positions (NavSolution) instead of states (NavState)")
     s.add_argument("--limit", type=int, metavar="N", help="stop after N states")
@@ -179,6 +193,9 @@ def _dds_options(command: argparse.ArgumentParser) -> None:
         metavar="F.xml",
         help="Cyclone DDS configuration; without it, the loopback interface only",
     )
+    command.add_argument(
+        "--security", type=Path, metavar="FOLDER", help="DDS Security with the files that `ins keys` made there"
+    )
 
 
 def _dds_module(options: argparse.Namespace) -> tuple[Any, str | None]:
@@ -197,12 +214,16 @@ def _dds_module(options: argparse.Namespace) -> tuple[Any, str | None]:
         raise UsageError(f"{options.dds_config}: cannot be read: {error.strerror}") from error
 
 
+def _security(options: argparse.Namespace) -> str | None:
+    return None if options.security is None else str(options.security)
+
+
 def open_dds(options: argparse.Namespace, publishes: bool, exclusive: bool = False, solution: bool = False) -> Any:
     """A DDS handle from the command line's options, for states, or for solutions. Raises UsageError."""
     _dds, xml = _dds_module(options)
     try:
         topic = options.topic or (_dds.SOLUTION_TOPIC if solution else _dds.TOPIC)
-        return _dds.Handle(options.domain, topic, xml, publishes, exclusive, solution)
+        return _dds.Handle(options.domain, topic, xml, publishes, exclusive, _security(options), solution)
     except RuntimeError as error:
         raise UsageError(f"DDS: {error}") from error
 
@@ -211,7 +232,7 @@ def _open_ros(options: argparse.Namespace) -> Any:
     _dds, xml = _dds_module(options)
     domain = None if os.environ.get("ROS_DOMAIN_ID") else options.domain
     try:
-        return _dds.Node(options.ros, domain, xml)
+        return _dds.Node(options.ros, domain, xml, _security(options))
     except RuntimeError as error:
         raise UsageError(f"ROS: {error}") from error
 
@@ -397,6 +418,7 @@ def main(arguments: list[str] | None = None) -> int:
             "campaign": campaign.command,
             "debug": debug_cli.run,
             "replay": replay_cli.run,
+            "keys": keys_cli.run,
             "sim": sim_cli.run,
             "calib": calib_cli.run,
             "sub": _sub_command,

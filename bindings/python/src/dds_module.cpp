@@ -21,13 +21,33 @@ using namespace nb::literals;
 namespace
 {
 
+/// The files of a folder that `ins keys` made.
+class Security
+{
+  public:
+    explicit Security(const std::optional<std::string>& folder) : used(folder.has_value())
+    {
+        if (folder && ins_dds_security_folder(folder->c_str(), &files, memory.data()) != INS_DDS_OK)
+        {
+            throw std::runtime_error(ins_dds_error_text());
+        }
+    }
+    const ins_dds_security_t* get() const { return used ? &files : nullptr; }
+
+  private:
+    bool used;
+    std::array<char, INS_DDS_SECURITY_MEMORY> memory{};
+    ins_dds_security_t files{};
+};
+
 class Handle
 {
   public:
     Handle(uint32_t domain, const std::string& topic, const std::optional<std::string>& xml, bool publishes,
-           bool exclusive, bool solution)
+           bool exclusive, const std::optional<std::string>& security, bool solution)
         : solution_(solution)
     {
+        const Security files(security);
         ins_dds_config_t cfg;
         ins_dds_config_default(&cfg);
         cfg.domain = domain;
@@ -39,6 +59,7 @@ class Handle
         cfg.subscribes = publishes ? 0 : 1;
         cfg.history = publishes ? cfg.history : 256;
         cfg.strength = exclusive ? 1 : 0;
+        cfg.security = files.get();
         if (ins_dds_open(&cfg, &self_) != INS_DDS_OK)
         {
             throw std::runtime_error(ins_dds_error_text());
@@ -73,14 +94,17 @@ class Handle
 class Node
 {
   public:
-    Node(const std::string& name_space, const std::optional<uint32_t>& domain, const std::optional<std::string>& xml)
+    Node(const std::string& name_space, const std::optional<uint32_t>& domain, const std::optional<std::string>& xml,
+         const std::optional<std::string>& security)
     {
+        const Security files(security);
         ins_ros_config_t cfg;
         ins_ros_config_default(&cfg);
         cfg.dds.domain = domain.value_or(INS_ROS_DOMAIN_ENV);
         cfg.name_space = name_space.c_str();
         cfg.dds.network = xml ? INS_DDS_XML : INS_DDS_LOOPBACK;
         cfg.dds.xml = xml ? xml->c_str() : nullptr;
+        cfg.dds.security = files.get();
         int status = ins_ros_open(&cfg, &self_);
         if (status == INS_DDS_E_DOMAIN)
         {
@@ -210,8 +234,10 @@ NB_MODULE(_dds, m)
     m.attr("TOPIC") = INS_DDS_TOPIC;
     m.attr("SOLUTION_TOPIC") = INS_DDS_SOLUTION_TOPIC;
     nb::class_<Handle>(m, "Handle")
-        .def(nb::init<uint32_t, const std::string&, const std::optional<std::string>&, bool, bool, bool>(), "domain"_a,
-             "topic"_a, "xml"_a.none(), "publishes"_a, "exclusive"_a = false, "solution"_a = false)
+        .def(nb::init<uint32_t, const std::string&, const std::optional<std::string>&, bool, bool,
+                      const std::optional<std::string>&, bool>(),
+             "domain"_a, "topic"_a, "xml"_a.none(), "publishes"_a, "exclusive"_a = false, "security"_a = nb::none(),
+             "solution"_a = false)
         .def("publish", publish, "state"_a, "source"_a, "published_ns"_a)
         .def("publish_solution", publish_solution, "index"_a, "t_s"_a, "q_nb"_a, "euler_rad"_a, "lat_lon_rad"_a,
              "v_en_m_s"_a, "fix_age_s"_a, "source"_a, "published_ns"_a)
@@ -219,8 +245,9 @@ NB_MODULE(_dds, m)
         .def("matched", [](const Handle& self) { return checked(ins_dds_matched(self.get())); })
         .def("close", &Handle::close);
     nb::class_<Node>(m, "Node")
-        .def(nb::init<const std::string&, const std::optional<uint32_t>&, const std::optional<std::string>&>(),
-             "name_space"_a, "domain"_a.none(), "xml"_a.none())
+        .def(nb::init<const std::string&, const std::optional<uint32_t>&, const std::optional<std::string>&,
+                      const std::optional<std::string>&>(),
+             "name_space"_a, "domain"_a.none(), "xml"_a.none(), "security"_a = nb::none())
         .def("publish", publish_ros, "state"_a, "time_ns"_a)
         .def("close", &Node::close);
 }

@@ -48,7 +48,8 @@ struct ins_dds_t
 int dds_fail(int status, const char* format, ...);
 void dds_log_line(void* context, const dds_log_data_t* data);
 /// What the configuration says beyond kind and topics. After a refusal the place is still to be closed.
-int dds_place_open(dds_place_t* self, const ins_dds_config_t* cfg, const dds_qos_t* participant_qos);
+/// \param[in] user  USER_DATA of the participant, NULL: none.
+int dds_place_open(dds_place_t* self, const ins_dds_config_t* cfg, const char* user);
 /// All entities are there: Cyclone's log goes where the configuration says from now on.
 void dds_place_ready(dds_place_t* self);
 void dds_place_close(dds_place_t* self);
@@ -57,6 +58,8 @@ int dds_refused(const dds_place_t* self, const char* what, dds_return_t code);
 /// Reliability, history, durability, partition, and of a writer deadline and liveliness; to be freed.
 dds_qos_t* dds_quality(const ins_dds_config_t* cfg, int is_writer);
 dds_duration_t dds_duration(double seconds);
+/// Into the participant's QoS. \return INS_DDS_OK; INS_DDS_E_ARGUMENT: a file is not named or cannot be read.
+int dds_secure(const ins_dds_security_t* security, dds_qos_t* qos);
 
 /// The two structs hold the same fields; source and published_ns are the caller's.
 void dds_from_state(const ins_nav_state_t* from, libins_NavState* message);

@@ -56,6 +56,11 @@ static int check(const ins_dds_config_t* cfg)
 
 int dds_refused(const dds_place_t* self, const char* what, dds_return_t code)
 {
+    if (code == DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+    {
+        return dds_fail(INS_DDS_E_DDS,
+                        "DDS security does not allow the %s: see --publish and --subscribe of `ins keys`", what);
+    }
     return dds_fail(INS_DDS_E_DDS, "DDS refused the %s: %s%s%s", what, dds_strretcode(code),
                     self->log.text[0] != '\0' ? ": " : "", self->log.text);
 }
@@ -104,7 +109,23 @@ static int create_domain(dds_place_t* self, const ins_dds_config_t* cfg)
                                                        dds_strretcode(domain), self->log.text);
 }
 
-int dds_place_open(dds_place_t* self, const ins_dds_config_t* cfg, const dds_qos_t* participant_qos)
+static int create_participant(dds_place_t* self, const ins_dds_config_t* cfg, const char* user)
+{
+    dds_qos_t* qos = dds_create_qos();
+    if (user != NULL)
+    {
+        dds_qset_userdata(qos, user, strlen(user));
+    }
+    const int status = cfg->security != NULL ? dds_secure(cfg->security, qos) : INS_DDS_OK;
+    if (status == INS_DDS_OK)
+    {
+        self->participant = dds_create_participant(cfg->domain, qos, NULL);
+    }
+    dds_delete_qos(qos);
+    return self->participant < 0 ? dds_refused(self, "participant", self->participant) : status;
+}
+
+int dds_place_open(dds_place_t* self, const ins_dds_config_t* cfg, const char* user)
 {
     const int fault = check(cfg);
     if (fault != INS_DDS_OK)
@@ -118,12 +139,7 @@ int dds_place_open(dds_place_t* self, const ins_dds_config_t* cfg, const dds_qos
     self->log.log_context = cfg->log_context;
     dds_set_log_sink(dds_log_line, &self->log);
     const int status = create_domain(self, cfg);
-    if (status != INS_DDS_OK)
-    {
-        return status;
-    }
-    self->participant = dds_create_participant(cfg->domain, participant_qos, NULL);
-    return self->participant < 0 ? dds_refused(self, "participant", self->participant) : INS_DDS_OK;
+    return status == INS_DDS_OK ? create_participant(self, cfg, user) : status;
 }
 
 void dds_place_ready(dds_place_t* self)

@@ -261,11 +261,7 @@ int ins_ros_open(const ins_ros_config_t* cfg, ins_ros_t** out)
     (void)snprintf(self->frame.imu, sizeof self->frame.imu, "%s", cfg->imu);
     self->frame.rate_variance = cfg->rate_sigma * cfg->rate_sigma;
     self->frame.force_variance = cfg->force_sigma * cfg->force_sigma;
-    static const char enclave[] = "enclave=/;";
-    dds_qos_t* qos = dds_create_qos();
-    dds_qset_userdata(qos, enclave, sizeof enclave - 1);
-    status = dds_place_open(&self->place, &dds, qos);
-    dds_delete_qos(qos);
+    status = dds_place_open(&self->place, &dds, "enclave=/;");
     status = status == INS_DDS_OK ? create_topics(self, cfg, &dds) : status;
     status = status == INS_DDS_OK && cfg->gid_octets != 0 ? introduce(self, &dds) : status;
     if (status != INS_DDS_OK)

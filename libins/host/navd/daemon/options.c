@@ -49,6 +49,7 @@ static const char* const help =
     "      --topic NAME          libins/nav_state, with --input nav libins/nav_solution\n"
     "      --partition NAME      none\n"
     "      --strength N          of several daemons of one source only the strongest alive is heard; 0: all are\n"
+    "      --security FOLDER     DDS Security with the files that `ins keys` made there\n"
     "      --lease-s S           it counts as gone after S seconds without a sign of life; 1\n"
     "      --source ID           key of the published states; ins-navd\n"
     "      --ros[=NAMESPACE]     publish ROS 2 topics (imu/data, /tf, /diagnostics; with --input nav gnss/fix, "
@@ -84,6 +85,7 @@ enum
     O_DDS_ENV,
     O_STRENGTH,
     O_LEASE,
+    O_SECURITY,
     O_ROS,
     O_TOPIC,
     O_PARTITION,
@@ -115,6 +117,7 @@ static const struct option known[] = {
     {"dds-config", required_argument, NULL, O_DDS_CONFIG},
     {"dds-env", no_argument, NULL, O_DDS_ENV},
     {"strength", required_argument, NULL, O_STRENGTH},
+    {"security", required_argument, NULL, O_SECURITY},
     {"lease-s", required_argument, NULL, O_LEASE},
     {"ros", optional_argument, NULL, O_ROS},
     {"topic", required_argument, NULL, O_TOPIC},
@@ -345,6 +348,9 @@ static int take(options_t* o, int code, const char* text)
     case O_LEASE:
         good = above_zero(code, text, &o->lease_s);
         break;
+    case O_SECURITY:
+        o->security = text;
+        break;
     case O_ROS:
         o->ros = text != NULL ? text : "/";
         break;
@@ -407,9 +413,9 @@ static const char* problem(const options_t* o)
     {
         return "--topic, --partition, --strength and --lease-s want --dds";
     }
-    if (!o->dds && o->ros == NULL && (o->dds_config != NULL || o->dds_environment))
+    if (!o->dds && o->ros == NULL && (o->dds_config != NULL || o->dds_environment || o->security != NULL))
     {
-        return "--dds-config and --dds-env want --dds or --ros";
+        return "--dds-config, --dds-env and --security want --dds or --ros";
     }
     if (o->dds_config != NULL && o->dds_environment)
     {

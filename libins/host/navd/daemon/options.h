@@ -29,8 +29,9 @@ typedef struct options_t
     int dds_environment;    ///< 1: configuration from CYCLONEDDS_URI
     const char* topic;      ///< NULL = the default
     const char* partition;
-    int32_t strength; ///< of exclusive ownership, 0 = shared
-    double lease_s;   ///< of liveliness, 0 = the default
+    int32_t strength;     ///< of exclusive ownership, 0 = shared
+    double lease_s;       ///< of liveliness, 0 = the default
+    const char* security; ///< folder, NULL = none
     const char* source;
     const char* ros;  ///< ROS 2 namespace to publish in, NULL = none
     uint64_t limit;   ///< states, 0 = none

@@ -70,6 +70,7 @@ static int open_both(publisher_t* self, const options_t* options, ins_dds_config
     ros.dds.domain = options->dds && (domain == NULL || domain[0] == '\0') ? cfg->domain : ros.dds.domain;
     ros.dds.network = cfg->network;
     ros.dds.xml = cfg->xml;
+    ros.dds.security = cfg->security;
     ros.dds.log = cfg->log;
     ros.dds.log_context = cfg->log_context;
     int status = ins_ros_open(&ros, &self->ros);
@@ -105,8 +106,16 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
         cfg.network = INS_DDS_XML;
         cfg.xml = text;
     }
+    char paths[INS_DDS_SECURITY_MEMORY];
+    ins_dds_security_t security;
+    int status = INS_DDS_OK;
+    if (options->security != NULL)
+    {
+        status = ins_dds_security_folder(options->security, &security, paths);
+        cfg.security = &security;
+    }
     publisher_t* self = calloc(1, sizeof *self);
-    if (self == NULL || !open_both(self, options, &cfg))
+    if (self == NULL || status != INS_DDS_OK || !open_both(self, options, &cfg))
     {
         (void)snprintf(error, size, "%s%s%s", options->dds_config != NULL ? options->dds_config : "",
                        options->dds_config != NULL ? ": " : "", self == NULL ? "memory is out" : ins_dds_error_text());

@@ -21,10 +21,11 @@
 extern "C" {
 #endif
 
-#define INS_DDS_TOPIC          "libins/nav_state"
-#define INS_DDS_SOLUTION_TOPIC "libins/nav_solution"
-#define INS_DDS_SOURCE_MAX     63  ///< octets of a source id
-#define INS_DDS_DOMAIN_MAX     230 ///< DDS security of Cyclone 0.10 accepts no higher one
+#define INS_DDS_TOPIC           "libins/nav_state"
+#define INS_DDS_SOLUTION_TOPIC  "libins/nav_solution"
+#define INS_DDS_SOURCE_MAX      63   ///< octets of a source id
+#define INS_DDS_SECURITY_MEMORY 6144 ///< octets, for ins_dds_security_folder()
+#define INS_DDS_DOMAIN_MAX      230  ///< DDS security of Cyclone 0.10 accepts no higher one
 
 enum
 {
@@ -51,6 +52,17 @@ enum
     INS_DDS_JOIN = 3         ///< the process already has the domain; it is left alone on close
 };
 
+/// DDS Security 1.1: who we are, and who may do what. Paths of files; `ins keys` makes them (docs/dds_security.md).
+typedef struct ins_dds_security_t
+{
+    const char* identity_ca;    ///< certificate of who signs the participants' certificates, PEM
+    const char* certificate;    ///< our own, PEM
+    const char* key;            ///< its private key, PEM
+    const char* permissions_ca; ///< certificate of who signs the next two, PEM
+    const char* governance;     ///< what a domain protects, signed, S/MIME
+    const char* permissions;    ///< what we may publish and subscribe, signed, S/MIME
+} ins_dds_security_t;
+
 typedef struct ins_dds_config_t
 {
     uint32_t domain;       ///< 0..INS_DDS_DOMAIN_MAX
@@ -67,6 +79,7 @@ typedef struct ins_dds_config_t
     /// 0: every writer is heard. Above: of the writers of a source only the strongest alive is (EXCLUSIVE ownership), with this strength
     /// for a writer; reader and writers must all be so. A stronger one takes over at once, a weaker one lease_s after the last sign of life.
     int32_t strength;
+    const ins_dds_security_t* security; ///< NULL: none, anybody who reaches the port may publish and listen
     /// Receives the lines of Cyclone's log, which is one for the process: that of the handle opened last, until it is closed. Called
     /// from any thread. NULL: they go to stderr, but for those of an open that fails, which are in the error text.
     void (*log)(void* context, const char* line);
@@ -87,6 +100,10 @@ typedef struct ins_dds_t ins_dds_t;
 
 /// Domain 0, loopback, states, usual topic, no partition, publishes, deadline 1 s, lease 1 s, history 16.
 INS_API void ins_dds_config_default(ins_dds_config_t* cfg);
+/// The six files as `ins keys` names them in a folder.
+/// \param[out] memory  [INS_DDS_SECURITY_MEMORY] holds the paths, as long as `security` is used.
+/// \return INS_DDS_OK; INS_DDS_E_ARGUMENT: the name of the folder is too long.
+INS_API int ins_dds_security_folder(const char* folder, ins_dds_security_t* security, char* memory);
 /// \return INS_DDS_OK, or an error, and then *self is NULL and nothing is left open.
 INS_API int ins_dds_open(const ins_dds_config_t* cfg, ins_dds_t** self);
 /// \param[in] source id of the publishing unit, 1..INS_DDS_SOURCE_MAX octets: the key of the topic.
