@@ -124,6 +124,8 @@ def config_of(
     config.xdata_octets = tables.xdata_octets
     config.crystal_hz = tables.clock_hz
     config.seed = seed
+    if (stages := tables.front_end) is not None:
+        config.set_front_end(stages.sensor_hz, stages.sensor_damping, stages.amplifier_hz, stages.slew_v_s, stages.rc_s)
     config.six = six
     for place, signal in enumerate(tables.analog):
         t_s, values = volts[place].T.tolist() if signal.csv else ([], [])

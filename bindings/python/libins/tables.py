@@ -70,6 +70,17 @@ class Gyro:
 
 
 @dataclass(frozen=True)
+class FrontEnd:
+    """Between sensors and converter; a stage whose figure is 0 is a wire. See ins_truth/front_end.h."""
+
+    sensor_hz: float = field(0.0, minimum=0.0, maximum=1e6)
+    sensor_damping: float = field(0.0, minimum=0.0, maximum=20.0)
+    amplifier_hz: float = field(0.0, minimum=0.0, maximum=1e8)
+    slew_v_s: float = field(0.0, minimum=0.0, maximum=1e9)
+    rc_s: float = field(0.0, minimum=0.0, maximum=10.0)
+
+
+@dataclass(frozen=True)
 class Analog:
     """What is on an input instead of a gyro: volts + amplitude_v sin(2 pi frequency_hz t + phase_rad) + the file."""
 
@@ -136,6 +147,7 @@ class Acquisition:
     xdata_octets: int = field(0, minimum=0, maximum=65536)
     clock_hz: int = field(11_059_200, minimum=1_000_000, maximum=33_000_000)
     gyro: Gyro = field(Gyro)
+    front_end: FrontEnd | None = field(None)
     analog: list[Analog] = field([])
 
 

@@ -16,20 +16,48 @@ emu_time_t picoseconds(double seconds)
     return static_cast<emu_time_t>(std::floor(seconds * 1e12 + 0.5));
 }
 
+constexpr double front_end_tolerance_v = 1e-7; // a code of 12 bits in 5 V is 1.2e-3
+constexpr double unlimited_v = 1e3;            // the rails are the front end's
+
 } // namespace
+
+void Run::open_sensors(ins_gyro_config_t gyro)
+{
+    std::array<char, 256> why{};
+    ins_front_end_config_t f{};
+    if (config_.front_end)
+    {
+        double& low = config_.accels ? config_.accels->rail_low_v : gyro.rail_low_v;
+        double& high = config_.accels ? config_.accels->rail_high_v : gyro.rail_high_v;
+        f.channels = channels();
+        f.tolerance_v = front_end_tolerance_v;
+        f.source = on_sensors;
+        f.ctx = this;
+        std::fill(f.channel, f.channel + f.channels, *config_.front_end);
+        for (ins_front_end_channel_t& channel : f.channel)
+        {
+            channel.rail_low_v = low;
+            channel.rail_high_v = high;
+        }
+        low = -unlimited_v;
+        high = unlimited_v;
+    }
+    if (!ins_gyro_init(&gyro_, &gyro, motion_.get(), why.data(), why.size()) ||
+        (config_.accels && !ins_accels_init(&accels_, &*config_.accels, config_.track.get(), why.data(), why.size())))
+    {
+        throw std::invalid_argument(why.data());
+    }
+    if (config_.front_end)
+    {
+        f.hold_ps = config_.accels ? accels_.hold_ps : gyro_.noise_step_ps;
+        front_end_.open(f);
+    }
+}
 
 Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const ins_gyro_config_t& gyro)
     : config_(config), motion_(std::move(motion))
 {
-    std::array<char, 256> why{};
-    if (!ins_gyro_init(&gyro_, &gyro, motion_.get(), why.data(), why.size()))
-    {
-        throw std::invalid_argument(why.data());
-    }
-    if (config_.accels && !ins_accels_init(&accels_, &*config_.accels, config_.track.get(), why.data(), why.size()))
-    {
-        throw std::invalid_argument(why.data());
-    }
+    open_sensors(gyro);
     if (config_.nav)
     {
         navigator_.begin(*config_.nav, config_.start_at_truth);
@@ -159,6 +187,12 @@ size_t Run::send(const std::string& octets)
     return taken;
 }
 
+double Run::on_sensors(void* ctx, unsigned channel, int64_t t)
+{
+    Run& self = *static_cast<Run*>(ctx);
+    return self.config_.accels ? ins_accels_volts(&self.accels_, channel, t) : ins_gyro_volts(&self.gyro_, channel, t);
+}
+
 double Run::on_volts(void* ctx, unsigned channel, int64_t t)
 {
     Run& self = *static_cast<Run*>(ctx);
@@ -166,8 +200,8 @@ double Run::on_volts(void* ctx, unsigned channel, int64_t t)
     const auto signal = self.config_.signals.find(channel);
     const double volts = held != self.volts_.end()              ? held->second
                          : signal != self.config_.signals.end() ? signal->second.at(static_cast<double>(t) * 1e-12)
-                         : self.config_.accels                  ? ins_accels_volts(&self.accels_, channel, t)
-                                                                : ins_gyro_volts(&self.gyro_, channel, t);
+                         : self.front_end_.is_open()            ? self.front_end_.volts(channel, t)
+                                                                : on_sensors(ctx, channel, t);
     return self.faults_->volts(channel, volts, t);
 }
 

@@ -9,7 +9,9 @@
 #include "emu/serial.h"
 #include "emu_8051/acq_board.h"
 #include "faults.hpp"
+#include "front_end.hpp"
 #include "ins_truth/accel.h"
+#include "ins_truth/front_end.h"
 #include "ins_truth/gyro.h"
 #include "navigator.hpp"
 #include "observers.hpp"
@@ -60,7 +62,8 @@ struct RunConfig
     std::map<unsigned, Signal> signals;       ///< by channel; the others have the gyros, or
     std::optional<ins_accel_config_t> accels; ///< accelerometers on the track
     std::shared_ptr<ins_track_t> track;
-    bool six = false;     ///< the board of acq_board_six_config()
+    std::optional<ins_front_end_channel_t> front_end; ///< its rails are the sensors'
+    bool six = false;                                 ///< the board of acq_board_six_config()
     bool listen = false;  ///< keep the octets that the host receives, also where the navigator takes them
     bool outside = false; ///< what is beyond the host's wires is somebody else's, the transmitter too
     bool seen =
@@ -158,6 +161,8 @@ class Run
         Run* run;
         unsigned wire;
     };
+    void open_sensors(ins_gyro_config_t gyro);
+    static double on_sensors(void* ctx, unsigned channel, int64_t t);
     static double on_volts(void* ctx, unsigned channel, int64_t t);
     static void on_sample(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at);
     static void on_outcome(void* ctx, unsigned channel, emu_time_t at, tlc2543_outcome_t* outcome);
@@ -178,6 +183,7 @@ class Run
     std::shared_ptr<ins_motion_t> motion_;
     ins_gyro_t gyro_{};
     ins_accels_t accels_{};
+    FrontEnd front_end_;
     std::map<unsigned, double> volts_; ///< set by hand
     emu_sched_t sched_{};
     std::unique_ptr<acq_board_t, BoardDeleter> board_;

@@ -253,6 +253,12 @@ NB_MODULE(_run, m)
         .def_rw("listen", &RunConfig::listen)
         .def_rw("seen", &RunConfig::seen)
         .def(
+            "set_front_end",
+            [](RunConfig& self, double sensor_hz, double sensor_damping, double amplifier_hz, double slew_v_s,
+               double rc_s) { self.front_end = {sensor_hz, sensor_damping, amplifier_hz, slew_v_s, 0.0, 0.0, rc_s}; },
+            "sensor_hz"_a, "sensor_damping"_a, "amplifier_hz"_a, "slew_v_s"_a, "rc_s"_a,
+            "Stages between sensors and converter; see ins_truth/front_end.h.")
+        .def(
             "add_signal",
             [](RunConfig& self, unsigned channel, const std::array<double, 4>& wave, const std::vector<double>& t_s,
                const std::vector<double>& volts) {

@@ -168,6 +168,7 @@ void Run::walk(emu_state_t* io)
     emu_state_u64(io, &navigator_.corrupt_accepted);
     emu_state_bool(io, &halted_);
     map(io, volts_);
+    front_end_.state(io);
 }
 
 /// Room for the header, and the walk behind it.
