@@ -39,6 +39,12 @@ double step(void*, unsigned, int64_t t_ps)
     return t_ps < s_ps / 100 ? 1.0 : 4.0;
 }
 
+/// 1 V, and 4 V for one millisecond after half a second.
+double pulse(void*, unsigned, int64_t t_ps)
+{
+    return t_ps / (s_ps / 1000) == 500 ? 4.0 : 1.0;
+}
+
 ins_front_end_config_t config(double (*source)(void*, unsigned, int64_t), const ins_front_end_channel_t& channel,
                               int64_t hold_ps = 0)
 {
@@ -150,6 +156,13 @@ TEST(front_end, jumps_of_the_source_are_met_exactly)
         want = level + (want - level) * std::exp(-1e-3 / 3.0 / rc_s);
         ASSERT_NEAR(ins_front_end_volts(f.get(), 0, k * (s_ps / 1000) / 3), want, settled_v) << k;
     }
+}
+
+TEST(front_end, a_jump_between_two_samples_far_apart_is_not_stepped_over)
+{
+    const FrontEnd f = made(config(pulse, {0, 0, 0, 0, 0, 0, 2e-3}, s_ps / 1000));
+    const double want = 1.0 + 3.0 * (1.0 - std::exp(-0.5)) * std::exp(-1.0);
+    EXPECT_NEAR(ins_front_end_volts(f.get(), 0, 503 * (s_ps / 1000)), want, settled_v);
 }
 
 TEST(front_end, an_amplifier_slews_and_stops_at_its_rails)
