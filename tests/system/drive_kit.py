@@ -135,9 +135,10 @@ def mounting(seed: int) -> np.ndarray[Any, Any]:
 
 
 def write(folder: Path, seed: int, seconds: float) -> Path:
-    """imu.csv, rtk.pos and drive.toml of one drive. Returns the configuration's path."""
+    """imu.csv, rtk.pos, wheels.csv and drive.toml of one drive. Returns the configuration's path."""
     rng = np.random.default_rng(seed)
-    road = track(profile(seconds, rng), rng)
+    way = profile(seconds, rng)
+    road = track(way, rng)
     last = seconds - 1.0
     t = np.arange(round(last * RATE_HZ) + 1) / RATE_HZ
     mount = _turn(mounting(seed))
@@ -154,6 +155,10 @@ def write(folder: Path, seed: int, seconds: float) -> Path:
     stamps = GPS_S + t[1:] - 0.5 / RATE_HZ  # of a mean over a period, the middle
     np.savetxt(folder / "imu.csv", np.column_stack([stamps, force, rate]), delimiter=",", fmt="%.6f")
     _write_pos(folder / "rtk.pos", road, last, mount, rng)
+    at = np.arange(1, round(last * 10.0)) / 10.0
+    yaw_rate = np.interp(at, way.t, np.gradient(way.heading, way.t)) + rng.normal(0.0, 0.005, len(at))
+    wheel = np.interp(at, way.t, way.speed) * 1.004 + rng.normal(0.0, 0.05, len(at))
+    np.savetxt(folder / "wheels.csv", np.column_stack([GPS_S + at, wheel, yaw_rate]), delimiter=",", fmt="%.5f")
     path = folder / "drive.toml"
     path.write_text(CONFIG, encoding="utf-8")
     return path

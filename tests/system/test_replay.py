@@ -84,6 +84,14 @@ def test_drives_never_seen(tmp_path, seed):
     assert any("ahead of the axle; slips" in note for note in result["notes"])
 
 
+def test_wheels_hold_an_outage(tmp_path):
+    path = drive_kit.write(tmp_path, 2, SECONDS)
+    alone = solved(path)[3]["outages"]
+    helped = solved(path, wheels={"csv": "wheels.csv"})[3]["outages"]
+    assert helped["count"] == alone["count"]
+    assert helped["rms_m"] < 0.7 * alone["rms_m"]
+
+
 def test_how_the_imu_is_mounted(tmp_path):
     config, drive, _, result = solved(drive_kit.write(tmp_path, 3, SECONDS))
     truth = np.rad2deg(drive_kit.mounting(3))

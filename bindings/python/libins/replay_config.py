@@ -84,7 +84,6 @@ class Reference:
     columns: list[str] = field([])
     time: str | None = field(None, choices=TIMES)
     time_offset_s: float = field(0.0, minimum=-1e10, maximum=1e10)
-    lever_arm_m: list[float] = field([0.0, 0.0, 0.0])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -153,10 +152,9 @@ def load(path: Path, overrides: Mapping[str, Any]) -> Config:
     for table, names in (
         (config.gnss, ("lever_arm_m", "sigma_floor_m", "sigma_velocity_floor_m_s")),
         (config.wheels, ("lever_arm_m",)),
-        (config.reference, ("lever_arm_m",)),
     ):
         for name in names:
             if table is not None and (value := getattr(table, name)) is not None and len(value) != 3:
-                place = {GnssFile: "gnss", WheelsFile: "wheels", Reference: "reference"}[type(table)]
+                place = "gnss" if table is config.gnss else "wheels"
                 raise document.refuse((place, name), f"found {value!r}, but 3 numbers are needed")
     return config
