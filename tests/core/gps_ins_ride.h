@@ -121,7 +121,9 @@ struct Ride
     ins_gps_ins_config_t cfg;
     ins_imu_config_t sensor;
     ins_imu_t imu;
-    ins_gps_ins_t nav;
+    ins_gps_ins_ud_t both;
+    ins_gps_ins_t& nav = both.base;
+    bool ud = false;
     double sigma_p = 1, sigma_v = 0.1; ///< of the fixes
 
     Ride(const ins_track_t* on, uint64_t seed) : track(on), random(seed)
@@ -172,7 +174,7 @@ struct Ride
             s.sigma[i] = static_cast<ins_real>(sigma[i]);
         }
         ASSERT_TRUE(ins_imu_init(&imu, &sensor, why, sizeof why)) << why;
-        ASSERT_EQ(ins_gps_ins_init(&nav, &cfg, &s), INS_OK);
+        ASSERT_EQ(ud ? ins_gps_ins_ud_init(&both, &cfg, &s) : ins_gps_ins_init(&nav, &cfg, &s), INS_OK);
     }
     ins_increment_t sample(const std::array<double, 6>& exact)
     {

@@ -378,4 +378,19 @@ TEST(gps_ins, a_dead_axis_is_found_and_survived)
         EXPECT_LT(length(r.errors(75), 6), 2) << axis;
     }
 }
+
+TEST(gps_ins, what_was_in_its_memory_before_does_not_matter)
+{
+    Ride clean(track(), 6), dirty(track(), 6);
+    std::memset(static_cast<void*>(&clean.both), 0, sizeof clean.both);
+    std::memset(static_cast<void*>(&dirty.both), 0xA5, sizeof dirty.both);
+    clean.start(0, SMALL);
+    dirty.start(0, SMALL);
+    drive(clean, 0, at(20));
+    drive(dirty, 0, at(20));
+    EXPECT_EQ(std::memcmp(&clean.nav.nav, &dirty.nav.nav, sizeof clean.nav.nav), 0);
+    EXPECT_EQ(std::memcmp(&clean.nav.kf, &dirty.nav.kf, sizeof clean.nav.kf), 0);
+    EXPECT_EQ(std::memcmp(&clean.nav.count, &dirty.nav.count, sizeof clean.nav.count), 0);
+    EXPECT_EQ(std::memcmp(&clean.nav.past, &dirty.nav.past, sizeof clean.nav.past), 0);
+}
 } // namespace

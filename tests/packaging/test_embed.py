@@ -64,3 +64,16 @@ def test_the_minimal_example_beside_a_copied_folder(tmp_path: Path) -> None:
         shutil.copy(EXAMPLES / "minimal_c" / name, tmp_path)
     run("make", "-j2", "CORE=core", "REAL=-DINS_REAL_FLOAT", cwd=tmp_path)
     assert "q_nb = -0.80114" in run(tmp_path / "minimal")
+
+
+@pytest.mark.parametrize(("number", "archive"), [("-O2", "libins.a"), ("-DINS_REAL_FLOAT", "libinsf.a")])
+def test_the_navigator_of_the_example_holds_through_its_outage(number: str, archive: str, tmp_path: Path) -> None:
+    library = ROOT / "build/release/libins/core" / archive
+    assert library.exists(), f"{library} is missing: run ./dev test"
+    main, program = EXAMPLES / "gps_ins_c/main.c", tmp_path / "gps_ins"
+    run("gcc", "-std=c11", "-Wall", "-Werror", number, f"-I{CORE}/include", main, library, "-lm", "-o", program)
+    said = run(program).splitlines()
+    off = [line.split()[2:7:4] for line in said if "sigma" in line]
+    assert len(off) == 10
+    assert all(float(error) <= float(sigma) for error, sigma in off), said
+    assert said[-1] == "9700 samples, 66 fixes, 0 rests used"

@@ -69,9 +69,45 @@ static int is_start(const ins_gps_ins_config_t* c, const ins_gps_ins_start_t* st
            is_vector(start->gyro_bias, c->rate_max) && is_vector(start->accel_bias, c->force_max);
 }
 
+/// All but what init sets; member by member, since a constant to copy would take 2 KB of flash.
+static void clear(ins_gps_ins_t* self)
+{
+    static const ins_gps_ins_check_t no_check; // all 0
+    static const ins_gps_ins_count_t no_count;
+    static const ins_gps_ins_past_t no_past;
+    self->check = no_check;
+    self->count = no_count;
+    for (unsigned k = 0; k < INS_GPS_INS_PAST; k++)
+    {
+        self->past[k] = no_past;
+    }
+    for (unsigned i = 0; i < 3; i++)
+    {
+        self->w_ib_b[i] = 0;
+        self->pending_v[i] = 0;
+        self->way_n[i] = 0;
+    }
+    for (unsigned i = 0; i < 6; i++)
+    {
+        self->value[i] = 0;
+        self->same[i] = 0;
+    }
+    self->dt = 0;
+    self->pending_dt = 0;
+    self->pending = 0;
+    self->odd_t_ns = 0;
+    self->odd = 0;
+    self->refused = 0;
+    self->stuck = 0;
+    self->lost = 0;
+    self->newest = 0;
+    self->held = 0;
+    self->plain = 0;
+    self->ud = 0;
+}
+
 ins_status_t ins_gps_ins_init(ins_gps_ins_t* self, const ins_gps_ins_config_t* cfg, const ins_gps_ins_start_t* start)
 {
-    static const ins_gps_ins_t zero; // all 0
     ins_strapdown_t nav;
     ins_still_t still;
     ins_kf15_model_t model;
@@ -83,14 +119,37 @@ ins_status_t ins_gps_ins_init(ins_gps_ins_t* self, const ins_gps_ins_config_t* c
     {
         return INS_E_RANGE;
     }
-    *self = zero;
+    clear(self);
     self->cfg = *cfg;
     self->nav = nav;
     self->still = still;
+    self->model = model;
     ins_vec_copy(start->gyro_bias, self->gyro_bias);
     ins_vec_copy(start->accel_bias, self->accel_bias);
     self->t_ns = start->t_ns;
-    return ins_kf15_init(&self->kf, start->sigma);
+    ins_gps_ins_restart(self, start->sigma);
+    return INS_OK;
+}
+
+ins_status_t ins_gps_ins_ud_init(ins_gps_ins_ud_t* self, const ins_gps_ins_config_t* cfg,
+                                 const ins_gps_ins_start_t* start)
+{
+    const ins_status_t status = ins_gps_ins_init(&self->base, cfg, start);
+    if (status == INS_OK)
+    {
+        self->base.ud = 1;
+        ins_gps_ins_restart(&self->base, start->sigma);
+    }
+    return status;
+}
+
+void ins_gps_ins_restart(ins_gps_ins_t* self, const ins_real sigma[INS_KF15_N])
+{
+    (void)ins_kf15_init(&self->kf, sigma); // both refuse what start and fixes were refused for
+    if (self->ud)
+    {
+        (void)ins_kf15_ud_init(gps_ins_ud(self), sigma);
+    }
 }
 
 /// Covariance over a time with its specific force; \param[in] unseen  length of a gap that it is part of, or 0 [s].
@@ -111,7 +170,14 @@ static void propagate(ins_gps_ins_t* self, ins_real dt, const ins_real v_b[3], i
         self->plain = (uint_least8_t)plain;
     }
     ins_kf15_model(&self->model, &self->nav, v_b);
-    ins_kf15_propagate(&self->kf, &self->model);
+    if (self->ud)
+    {
+        ins_kf15_ud_propagate(gps_ins_ud(self), &self->model);
+    }
+    else
+    {
+        ins_kf15_propagate(&self->kf, &self->model);
+    }
 }
 
 void ins_gps_ins_settle(ins_gps_ins_t* self)
@@ -223,17 +289,24 @@ ins_status_t ins_gps_ins_step(ins_gps_ins_t* self, int64_t t_ns, ins_real dt, co
     return INS_OK;
 }
 
-static void block(const ins_kf15_t* kf, unsigned first, ins_real P[9])
+static void block(const ins_real* all, unsigned first, ins_real P[9])
 {
     for (unsigned i = 0; i < 9; i++)
     {
-        P[i] = kf->P[INS_KF15_ROW * (first + i / 3) + first + i % 3];
+        P[i] = all[INS_KF15_ROW * (first + i / 3) + first + i % 3];
     }
 }
 
 void ins_gps_ins_state(const ins_gps_ins_t* self, ins_gps_ins_state_t* state)
 {
     const ins_real* q = self->nav.sculling.q_nb;
+    const ins_real* P = self->kf.P;
+    ins_real of_factors[INS_KF15_N * INS_KF15_ROW];
+    if (self->ud)
+    {
+        ins_kf15_ud_covariance(&((const ins_gps_ins_ud_t*)self)->ud, of_factors);
+        P = of_factors;
+    }
     state->t_ns = self->t_ns;
     for (unsigned i = 0; i < 4; i++)
     {
@@ -243,11 +316,11 @@ void ins_gps_ins_state(const ins_gps_ins_t* self, ins_gps_ins_state_t* state)
     state->position = self->nav.position;
     ins_vec_copy(self->gyro_bias, state->gyro_bias);
     ins_vec_copy(self->accel_bias, state->accel_bias);
-    block(&self->kf, INS_KF15_PHI, state->P_phi);
-    block(&self->kf, INS_KF15_V, state->P_v);
-    block(&self->kf, INS_KF15_P, state->P_p);
+    block(P, INS_KF15_PHI, state->P_phi);
+    block(P, INS_KF15_V, state->P_v);
+    block(P, INS_KF15_P, state->P_p);
     for (unsigned i = 0; i < INS_KF15_N; i++)
     {
-        state->sigma[i] = ins_sqrt(self->kf.P[(INS_KF15_ROW + 1) * i]);
+        state->sigma[i] = ins_sqrt(P[(INS_KF15_ROW + 1) * i]);
     }
 }

@@ -112,8 +112,8 @@ ins_status_t ins_gps_ins_altitude(ins_gps_ins_t* self, ins_real height, ins_real
 {
     gps_ins_rows_t rows;
     begin(self, &rows)->n = 1;
-    rows.h[0][INS_KF15_P + 2] = -1;
-    rows.v[0] = (height - self->nav.position.anchor[2]) - self->nav.position.offset[2];
+    rows.h[0][INS_KF15_P + 2] = 1; // down
+    rows.v[0] = (self->nav.position.anchor[2] - height) + self->nav.position.offset[2];
     rows.r[0] = sigma * sigma;
     return finish(self, &rows, self->cfg.gate);
 }

@@ -187,7 +187,7 @@ static void doubt(ins_gps_ins_t* self, const ins_gnss_fix_t* fix)
         sigma[INS_KF15_V + i] += ins_fabs(self->check.innovation[3 + i]) + fix->sigma_v[i];
         sigma[INS_KF15_P + i] += ins_fabs(self->check.innovation[i]) + fix->sigma_p[i];
     }
-    (void)ins_kf15_init(&self->kf, sigma);
+    ins_gps_ins_restart(self, sigma);
     self->count.fix_doubts++;
     self->refused = 0;
 }

@@ -22,6 +22,13 @@ typedef struct gps_ins_rows_t
 
 /// P(i,j).
 ins_real ins_gps_ins_covariance(const ins_gps_ins_t* self, unsigned i, unsigned j);
+/// The factors, of self->ud.
+static inline ins_kf15_ud_t* gps_ins_ud(ins_gps_ins_t* self)
+{
+    return &((ins_gps_ins_ud_t*)self)->ud; // self is its first member
+}
+/// Begins P anew.
+void ins_gps_ins_restart(ins_gps_ins_t* self, const ins_real sigma[INS_KF15_N]);
 /// Brings the covariance up to the last sample.
 void ins_gps_ins_settle(ins_gps_ins_t* self);
 /// Judges by the joint NIS, then corrects. \return INS_OK; INS_E_GATE; INS_E_RANGE. Refused: nothing is changed.

@@ -14,24 +14,45 @@ ins_real ins_gps_ins_covariance(const ins_gps_ins_t* self, unsigned i, unsigned 
     return self->kf.P[INS_KF15_ROW * i + j];
 }
 
-/// a P b
-static ins_real product(const ins_gps_ins_t* self, const ins_real a[INS_KF15_N], const ins_real b[INS_KF15_N])
+/// Where a row is not 0.
+typedef struct columns_t
 {
-    ins_real sum = 0;
+    unsigned n;
+    uint_least8_t at[INS_KF15_N];
+} columns_t;
+
+static void find(const ins_real h[INS_KF15_N], columns_t* columns)
+{
+    columns->n = 0;
     for (unsigned i = 0; i < INS_KF15_N; i++)
     {
-        for (unsigned j = 0; a[i] != 0 && j < INS_KF15_N; j++)
+        if (h[i] != 0)
         {
-            if (b[j] != 0)
-            {
-                sum += a[i] * b[j] * ins_gps_ins_covariance(self, i, j);
-            }
+            columns->at[columns->n++] = (uint_least8_t)i;
         }
+    }
+}
+
+/// h_i P h_j'
+static ins_real product(const ins_gps_ins_t* self, const gps_ins_rows_t* rows, const columns_t* columns, unsigned i,
+                        unsigned j)
+{
+    ins_real sum = 0;
+    for (unsigned k = 0; k < columns[i].n; k++)
+    {
+        const unsigned a = columns[i].at[k];
+        ins_real row = 0;
+        for (unsigned m = 0; m < columns[j].n; m++)
+        {
+            const unsigned b = columns[j].at[m];
+            row += rows->h[j][b] * ins_gps_ins_covariance(self, a, b);
+        }
+        sum += rows->h[i][a] * row;
     }
     return sum;
 }
 
-static void judge(const ins_gps_ins_t* self, gps_ins_rows_t* rows)
+static void judge(const ins_gps_ins_t* self, const columns_t* columns, gps_ins_rows_t* rows)
 {
     ins_real l[3][3];
     ins_real d[3];
@@ -40,10 +61,10 @@ static void judge(const ins_gps_ins_t* self, gps_ins_rows_t* rows)
     for (unsigned i = 0; i < rows->n; i++)
     {
         e[i] = rows->v[i];
-        d[i] = product(self, rows->h[i], rows->h[i]) + rows->r[i];
+        d[i] = product(self, rows, columns, i, i) + rows->r[i];
         for (unsigned j = 0; j < i; j++)
         {
-            ins_real s = product(self, rows->h[i], rows->h[j]);
+            ins_real s = product(self, rows, columns, i, j);
             for (unsigned k = 0; k < j; k++)
             {
                 s -= l[i][k] * l[j][k] * d[k];
@@ -85,11 +106,36 @@ static void correct(ins_gps_ins_t* self, const ins_real x[INS_KF15_N])
     }
 }
 
+/// One scalar. \return its gain, or 0 if it was refused.
+static const ins_real* update(ins_gps_ins_t* self, const ins_real h[INS_KF15_N], const columns_t* columns,
+                              ins_innovation_t* z)
+{
+    const unsigned index = columns->at[0];
+    const int is_unit = columns->n == 1 && h[index] == 1;
+    if (self->ud)
+    {
+        ins_kf15_ud_t* ud = gps_ins_ud(self);
+        const ins_status_t status = is_unit ? ins_kf15_ud_update_state(ud, index, z) : ins_kf15_ud_update(ud, h, z);
+        return status == INS_OK ? ud->K : 0;
+    }
+    const ins_status_t status = is_unit ? ins_kf15_update_state(&self->kf, index, z) : ins_kf15_update(&self->kf, h, z);
+    return status == INS_OK ? self->kf.K : 0;
+}
+
 ins_status_t ins_gps_ins_measure(ins_gps_ins_t* self, gps_ins_rows_t* rows, ins_real gate)
 {
     ins_real x[INS_KF15_N] = {0};
     int positive = 1;
-    judge(self, rows);
+    columns_t columns[3];
+    if (self->ud)
+    {
+        ins_kf15_ud_covariance(gps_ins_ud(self), self->kf.P);
+    }
+    for (unsigned i = 0; i < rows->n; i++)
+    {
+        find(rows->h[i], &columns[i]);
+    }
+    judge(self, columns, rows);
     for (unsigned i = 0; i < rows->n; i++)
     {
         positive &= rows->r[i] > 0;
@@ -105,18 +151,20 @@ ins_status_t ins_gps_ins_measure(ins_gps_ins_t* self, gps_ins_rows_t* rows, ins_
     for (unsigned i = 0; i < rows->n; i++)
     {
         ins_innovation_t z = {rows->v[i], rows->r[i], 0, 0};
-        for (unsigned k = 0; k < INS_KF15_N; k++)
+        for (unsigned k = 0; k < columns[i].n; k++)
         {
-            z.v -= rows->h[i][k] * x[k];
+            z.v -= rows->h[i][columns[i].at[k]] * x[columns[i].at[k]];
         }
-        if (ins_kf15_update(&self->kf, rows->h[i], &z) == INS_OK)
+        const ins_real* K = update(self, rows->h[i], &columns[i], &z);
+        for (unsigned k = 0; K && k < INS_KF15_N; k++)
         {
-            for (unsigned k = 0; k < INS_KF15_N; k++)
-            {
-                x[k] += self->kf.K[k] * z.v;
-            }
+            x[k] += K[k] * z.v;
         }
     }
     correct(self, x);
+    if (self->ud)
+    {
+        ins_kf15_ud_covariance(gps_ins_ud(self), self->kf.P);
+    }
     return INS_OK;
 }

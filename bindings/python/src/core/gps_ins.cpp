@@ -13,6 +13,7 @@ using namespace nb::literals;
 namespace
 {
 using Config = ins_gps_ins_config_t;
+using Nav = ins_gps_ins_ud_t; ///< its base alone, unless the UD form is asked for
 
 ins_increment_t increment(const ins_real* theta_b, const ins_real* v_b)
 {
@@ -69,10 +70,10 @@ void bind_config(nb::module_& m)
     copies(cfg);
 }
 
-void start(ins_gps_ins_t* self, const Config& cfg, int64_t t_ns, const Given& q_nb, const Given& v_n,
-           const ins_position_t& position, const Given& sigma, const Given& gyro_bias, const Given& accel_bias)
+void start(Nav* self, const Config& cfg, int64_t t_ns, const Given& q_nb, const Given& v_n,
+           const ins_position_t& position, const Given& sigma, const Given& gyro_bias, const Given& accel_bias, bool ud)
 {
-    new (self) ins_gps_ins_t();
+    new (self) Nav();
     const Call call("GpsIns", "a config in its ranges, unit q_nb, sigma >= 0 and no angle's above GPS_INS_TILT_MAX");
     ins_gps_ins_start_t s = {};
     s.t_ns = t_ns;
@@ -87,7 +88,7 @@ void start(ins_gps_ins_t* self, const Config& cfg, int64_t t_ns, const Given& q_
     std::copy(d.data, d.data + INS_KF15_N, s.sigma);
     std::copy(g.data, g.data + 3, s.gyro_bias);
     std::copy(a.data, a.data + 3, s.accel_bias);
-    call.check(ins_gps_ins_init(self, &cfg, &s));
+    call.check(ud ? ins_gps_ins_ud_init(self, &cfg, &s) : ins_gps_ins_init(&self->base, &cfg, &s));
 }
 
 ins_gnss_fix_t fix_of(const char* name, int64_t t_ns, const ins_position_t& position, const Given& v_n,
@@ -106,46 +107,62 @@ ins_gnss_fix_t fix_of(const char* name, int64_t t_ns, const ins_position_t& posi
     return f;
 }
 
-ins_status_t fix(ins_gps_ins_t& self, int64_t t_ns, const ins_position_t& position, const Given& v_n,
-                 const Given& sigma_p, const Given& sigma_v)
+ins_status_t fix(Nav& self, int64_t t_ns, const ins_position_t& position, const Given& v_n, const Given& sigma_p,
+                 const Given& sigma_v)
 {
     const ins_gnss_fix_t f = fix_of("GpsIns.gnss", t_ns, position, v_n, sigma_p, sigma_v);
-    return ins_gps_ins_gnss(&self, &f);
+    return ins_gps_ins_gnss(&self.base, &f);
 }
 
-std::map<std::string, uint32_t> counts(const ins_gps_ins_t& self)
+std::map<std::string, uint32_t> counts(const Nav& self)
 {
     std::map<std::string, uint32_t> out;
-#define COUNT(name, text) out[#name] = self.count.name;
+#define COUNT(name, text) out[#name] = self.base.count.name;
     INS_GPS_INS_COUNT_LIST(COUNT)
 #undef COUNT
     return out;
 }
 
-void bind_aids(nb::class_<ins_gps_ins_t>& nav)
+void bind_aids(nb::class_<Nav>& nav)
 {
-    nav.def("zupt", ins_gps_ins_zupt, "At rest now. Returns the status, as do the aids that follow.");
+    nav.def(
+        "zupt", [](Nav& self) { return ins_gps_ins_zupt(&self.base); },
+        "At rest now. Returns the status, as do the aids that follow.");
     nav.def(
         "zaru",
-        [](ins_gps_ins_t& self, const Given& w_ib_b)
-        { return ins_gps_ins_zaru(&self, Call("GpsIns.zaru").whole<ins_real>("w_ib_b", w_ib_b, {3}).data); },
+        [](Nav& self, const Given& w_ib_b)
+        { return ins_gps_ins_zaru(&self.base, Call("GpsIns.zaru").whole<ins_real>("w_ib_b", w_ib_b, {3}).data); },
         "w_ib_b"_a, "Not turning: mean rate as the IMU gave it [rad/s], (3,).");
-    nav.def("nhc", ins_gps_ins_nhc, "No velocity across the wheels.");
-    nav.def("odometer", ins_gps_ins_odometer, "speed"_a, "sigma"_a, "Forward speed of config.wheel_b [m/s].");
-    nav.def("yaw_rate", ins_gps_ins_yaw_rate, "rate"_a, "sigma"_a, "Rate about z of b by another gyro [rad/s].");
-    nav.def("altitude", ins_gps_ins_altitude, "height"_a, "sigma"_a, "Height above the ellipsoid [m].");
+    nav.def(
+        "nhc", [](Nav& self) { return ins_gps_ins_nhc(&self.base); }, "No velocity across the wheels.");
+    nav.def(
+        "odometer",
+        [](Nav& self, double speed, double sigma)
+        { return ins_gps_ins_odometer(&self.base, as_real(speed), as_real(sigma)); },
+        "speed"_a, "sigma"_a, "Forward speed of config.wheel_b [m/s].");
+    nav.def(
+        "yaw_rate",
+        [](Nav& self, double rate, double sigma)
+        { return ins_gps_ins_yaw_rate(&self.base, as_real(rate), as_real(sigma)); },
+        "rate"_a, "sigma"_a, "Rate about z of b by another gyro [rad/s].");
+    nav.def(
+        "altitude",
+        [](Nav& self, double height, double sigma)
+        { return ins_gps_ins_altitude(&self.base, as_real(height), as_real(sigma)); },
+        "height"_a, "sigma"_a, "Height above the ellipsoid [m].");
 }
 
 void bind_filter(nb::module_& m)
 {
-    nb::class_<ins_gps_ins_t> nav(
-        m, "GpsIns", "GPS/INS: strapdown with a 15-state error filter. Frames: b -> n (NED). SI, rad, ns.");
+    nb::class_<Nav> nav(m, "GpsIns",
+                        "GPS/INS: strapdown with a 15-state error filter. Frames: b -> n (NED). SI, rad, ns.");
     nav.def("__init__", start, "config"_a, "t_ns"_a, "q_nb"_a, "v_n"_a, "position"_a, "sigma"_a,
-            "gyro_bias"_a = nb::make_tuple(0, 0, 0), "accel_bias"_a = nb::make_tuple(0, 0, 0),
-            "Where it starts; sigma (15,) in the order KF15_PHI, KF15_V, KF15_P, KF15_BG, KF15_BA.");
+            "gyro_bias"_a = nb::make_tuple(0, 0, 0), "accel_bias"_a = nb::make_tuple(0, 0, 0), "ud"_a = false,
+            "Where it starts; ud: the covariance as U D U'. sigma (15,) in the order KF15_PHI, KF15_V, KF15_P, "
+            "KF15_BG, KF15_BA.");
     nav.def(
         "step",
-        [](ins_gps_ins_t& self, const Given& t_ns, double dt, const Given& theta_b, const Given& v_b)
+        [](Nav& self, const Given& t_ns, double dt, const Given& theta_b, const Given& v_b)
         {
             Call call("GpsIns.step");
             const auto t = call.rows<int64_t>("t_ns", t_ns, {});
@@ -156,7 +173,7 @@ void bind_filter(nb::module_& m)
                 [&](size_t k)
                 {
                     const ins_increment_t x = increment(theta[k], v[k]);
-                    *status[k] = ins_gps_ins_step(&self, *t[k], as_real(dt), &x);
+                    *status[k] = ins_gps_ins_step(&self.base, *t[k], as_real(dt), &x);
                 });
             return status;
         },
@@ -168,36 +185,43 @@ void bind_filter(nb::module_& m)
     bind_aids(nav);
     nav.def_prop_ro(
         "sigma",
-        [](const ins_gps_ins_t& self)
+        [](const Nav& self)
         {
             ins_gps_ins_state_t state;
-            ins_gps_ins_state(&self, &state);
+            ins_gps_ins_state(&self.base, &state);
             return copy_of(state.sigma, {INS_KF15_N});
         },
         "Standard deviations of the 15 errors, (15,).");
-    nav.def_ro("nav", &ins_gps_ins_t::nav, nb::rv_policy::copy, "The Strapdown now: attitude, velocity, position.");
-    nav.def_ro("kf", &ins_gps_ins_t::kf, nb::rv_policy::copy, "The Kf15 now.");
-    nav.def_ro("model", &ins_gps_ins_t::model, nb::rv_policy::copy, "The Kf15Model of its last step.");
-    nav.def_ro("t_ns", &ins_gps_ins_t::t_ns, "Of the last sample used.");
-    nav.def_ro("stuck", &ins_gps_ins_t::stuck, "Bit i: axis i of the gyros, i - 3 of the accelerometers, is dead.");
     nav.def_prop_ro(
-        "lost", [](const ins_gps_ins_t& self) { return self.lost != 0; }, "After a gap too long: start again.");
+        "nav", [](const Nav& self) { return self.base.nav; }, "The Strapdown now: attitude, velocity, position.");
+    nav.def_prop_ro(
+        "kf", [](const Nav& self) { return self.base.kf; }, "The Kf15 now.");
+    nav.def_prop_ro(
+        "model", [](const Nav& self) { return self.base.model; }, "The Kf15Model of its last step.");
+    nav.def_prop_ro(
+        "t_ns", [](const Nav& self) { return self.base.t_ns; }, "Of the last sample used.");
+    nav.def_prop_ro(
+        "stuck", [](const Nav& self) { return self.base.stuck; },
+        "Bit i: axis i of the gyros, i - 3 of the accelerometers, is dead.");
+    nav.def_prop_ro(
+        "lost", [](const Nav& self) { return self.base.lost != 0; }, "After a gap too long: start again.");
     nav.def_prop_ro("count", counts, "What was used and what was refused, by reason.");
     nav.def_prop_ro(
-        "innovation", [](const ins_gps_ins_t& self) { return copy_of(self.check.innovation, {6}); },
+        "innovation", [](const Nav& self) { return copy_of(self.base.check.innovation, {6}); },
         "Of the last fix: position [m], velocity [m/s], (6,).");
     nav.def_prop_ro(
-        "nis", [](const ins_gps_ins_t& self) { return copy_of(self.check.nis, {6}); },
+        "nis", [](const Nav& self) { return copy_of(self.base.check.nis, {6}); },
         "Of each component of the last fix, given those before; 0: not used, (6,).");
-    reads(nav, "gyro_bias", &ins_gps_ins_t::gyro_bias, {3}, "[rad/s], (3,).");
-    reads(nav, "accel_bias", &ins_gps_ins_t::accel_bias, {3}, "[m/s^2], (3,).");
+    nav.def_prop_ro(
+        "gyro_bias", [](const Nav& self) { return copy_of(self.base.gyro_bias, {3}); }, "[rad/s], (3,).");
+    nav.def_prop_ro(
+        "accel_bias", [](const Nav& self) { return copy_of(self.base.accel_bias, {3}); }, "[m/s^2], (3,).");
     copies(nav);
 }
 
 /// A filter that starts here, or None.
-std::optional<ins_gps_ins_t> begin(ins_gps_ins_align_t& self, const Config& cfg, int64_t t_ns,
-                                   const ins_position_t& position, const Given& v_n, const Given& sigma_p,
-                                   const Given& sigma_v)
+std::optional<Nav> begin(ins_gps_ins_align_t& self, const Config& cfg, int64_t t_ns, const ins_position_t& position,
+                         const Given& v_n, const Given& sigma_p, const Given& sigma_v)
 {
     const ins_gnss_fix_t f = fix_of("GpsInsAlign.gnss", t_ns, position, v_n, sigma_p, sigma_v);
     const Call call("GpsInsAlign.gnss", "finite figures, every sigma > 0, at most 0.1 s late, an IMU sample before it");
@@ -208,8 +232,8 @@ std::optional<ins_gps_ins_t> begin(ins_gps_ins_align_t& self, const Config& cfg,
     {
         return std::nullopt;
     }
-    ins_gps_ins_t nav = {};
-    call.check(ins_gps_ins_init(&nav, &cfg, &s));
+    Nav nav = {};
+    call.check(ins_gps_ins_init(&nav.base, &cfg, &s));
     return nav;
 }
 

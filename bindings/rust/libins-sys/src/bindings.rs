@@ -1478,8 +1478,27 @@ pub struct ins_gps_ins_t {
     pub held: uint_least8_t,
     #[doc = "1: model holds cfg.sensors alone"]
     pub plain: uint_least8_t,
+    #[doc = "1: base of an ins_gps_ins_ud_t"]
+    pub ud: uint_least8_t,
 }
 impl Default for ins_gps_ins_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
+#[doc = "The same with the covariance as P = U D U', for float with P0/R above 1e8. Start with ins_gps_ins_ud_init(); base goes to all"]
+#[doc = "other functions, base.kf.P is the covariance at the last measurement."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_gps_ins_ud_t {
+    pub base: ins_gps_ins_t,
+    pub ud: ins_kf15_ud_t,
+}
+impl Default for ins_gps_ins_ud_t {
     fn default() -> Self {
         let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
         unsafe {
@@ -1499,6 +1518,14 @@ extern "C" {
     #[doc = "off an error filter is not linear, and would be sure of a wrong heading; ins/gps_ins_align.h finds it."]
     pub fn ins_gps_ins_init(self_: *mut ins_gps_ins_t, cfg: *const ins_gps_ins_config_t, start: *const ins_gps_ins_start_t)
         -> ins_status_t;
+}
+extern "C" {
+    #[doc = "As ins_gps_ins_init()."]
+    pub fn ins_gps_ins_ud_init(
+        self_: *mut ins_gps_ins_ud_t,
+        cfg: *const ins_gps_ins_config_t,
+        start: *const ins_gps_ins_start_t,
+    ) -> ins_status_t;
 }
 extern "C" {
     #[doc = "Next IMU sample."]

@@ -65,7 +65,16 @@ typedef struct ins_gps_ins_t
     ins_gps_ins_past_t past[INS_GPS_INS_PAST];
     uint_least8_t newest, held;
     uint_least8_t plain; ///< 1: model holds cfg.sensors alone
+    uint_least8_t ud;    ///< 1: base of an ins_gps_ins_ud_t
 } ins_gps_ins_t;
+
+/// The same with the covariance as P = U D U', for float with P0/R above 1e8. Start with ins_gps_ins_ud_init(); base goes to all
+/// other functions, base.kf.P is the covariance at the last measurement.
+typedef struct ins_gps_ins_ud_t
+{
+    ins_gps_ins_t base;
+    ins_kf15_ud_t ud;
+} ins_gps_ins_ud_t;
 
 /// A low-cost MEMS IMU (0.3 deg/sqrt(h), 0.1 m/s/sqrt(h), 0.1 deg/s and 50 mg/1000 s), an antenna at the IMU, gates of 99.9 %,
 /// no detector of rest.
@@ -75,6 +84,9 @@ INS_API void ins_gps_ins_config(ins_gps_ins_config_t* cfg);
 /// off an error filter is not linear, and would be sure of a wrong heading; ins/gps_ins_align.h finds it.
 INS_API ins_status_t ins_gps_ins_init(ins_gps_ins_t* self, const ins_gps_ins_config_t* cfg,
                                       const ins_gps_ins_start_t* start);
+/// As ins_gps_ins_init().
+INS_API ins_status_t ins_gps_ins_ud_init(ins_gps_ins_ud_t* self, const ins_gps_ins_config_t* cfg,
+                                         const ins_gps_ins_start_t* start);
 
 /// Next IMU sample.
 /// \param[in] t_ns  end of the interval, any time base, within +-INS_GNSS_TIME_MAX_NS. \param[in] dt  its length [s].
