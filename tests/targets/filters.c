@@ -71,7 +71,7 @@ static void kf15(void)
     static ins_kf15_ud_t f_ud;
     static ins_strapdown_t s;
     static ins_kf15_model_t m;
-    static const ins_real level[4] = {1, 0, 0, 0};
+    static const ins_real q_nb[4] = {1, 0, 0, 0};
     static const ins_real v[3] = {30, -20, 1};
     static const ins_position_t at = {{INS_C(0.4), 2, 100}, {0, 0, 0}};
     static const ins_kf15_sensors_t sensors = {INS_C(1e-4), INS_C(1e-3), INS_C(1e-4), 300, INS_C(1e-2), 200};
@@ -81,7 +81,7 @@ static void kf15(void)
         sigma[i] = INS_C(0.1);
     }
     same_begin("kf15");
-    same_integer((uint32_t)ins_strapdown_init(&s, INS_CONING_HIST2_OPT, INS_C(0.01), level, v, &at));
+    same_integer((uint32_t)ins_strapdown_init(&s, INS_CONING_HIST2_OPT, INS_C(0.01), q_nb, v, &at));
     same_integer((uint32_t)ins_kf15_model_init(&m, INS_C(0.01), &sensors));
     same_integer((uint32_t)ins_kf15_init(&f, sigma));
     same_integer((uint32_t)ins_kf15_ud_init(&f_ud, sigma));
