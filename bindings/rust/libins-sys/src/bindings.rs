@@ -1,5 +1,6 @@
 // Made by bindings/rust/generate from libins/core/include/ins/ins.h: do not edit.
 
+pub const INS_VECTORS: u32 = 1;
 pub const INS_ACCELFIT_N: u32 = 8;
 pub const INS_CONING_SAMPLES_MAX: u32 = 4;
 pub const INS_BATCH_ROWS: u32 = 10;
