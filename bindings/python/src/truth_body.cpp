@@ -42,6 +42,36 @@ template <typename Create> Drive drive(Create create)
     return out;
 }
 
+Drive drive_table(const Instants& t, const Rows3& w_ib_b, const Rows3& f_b)
+{
+    if (w_ib_b.shape(0) != t.shape(0) || f_b.shape(0) != t.shape(0))
+    {
+        throw std::invalid_argument("t, w_ib_b and f_b must have the same number of rows");
+    }
+    return drive([&](char* why, size_t n)
+                 { return ins_drive_create_table(t.shape(0), t.data(), w_ib_b.data(), f_b.data(), why, n); });
+}
+
+constexpr std::array<std::pair<const char*, ins_manoeuvre_kind_t>, 6> kinds = {
+    {{"hold", INS_MANOEUVRE_HOLD},
+     {"accelerate", INS_MANOEUVRE_ACCELERATE},
+     {"turn", INS_MANOEUVRE_TURN},
+     {"roll", INS_MANOEUVRE_ROLL},
+     {"pitch", INS_MANOEUVRE_PITCH},
+     {"yaw", INS_MANOEUVRE_YAW}}};
+
+Drive drive_manoeuvres(const ins_track_site_t& site, const std::vector<Manoeuvre>& plan, double start_s, double speed)
+{
+    std::vector<ins_manoeuvre_t> out;
+    for (const auto& [name, duration_s, amount] : plan)
+    {
+        out.push_back({named("manoeuvre", name, kinds), duration_s, amount});
+    }
+    return drive([&](char* why, size_t n)
+                 { return ins_drive_create_manoeuvres(&site, out.data(), out.size(), start_s, speed, why, n); });
+}
+
+#ifdef INS_TRUTH_CVODE
 /// A Python callable with what it raised; it is called with the interpreter's lock.
 struct Callable
 {
@@ -87,36 +117,6 @@ bool event_by_callable(void* ctx, double t, const ins_track_state_t* state, doub
     return static_cast<Callable*>(ctx)->call(t, *state, value);
 }
 
-Drive drive_table(const Instants& t, const Rows3& w_ib_b, const Rows3& f_b)
-{
-    if (w_ib_b.shape(0) != t.shape(0) || f_b.shape(0) != t.shape(0))
-    {
-        throw std::invalid_argument("t, w_ib_b and f_b must have the same number of rows");
-    }
-    return drive([&](char* why, size_t n)
-                 { return ins_drive_create_table(t.shape(0), t.data(), w_ib_b.data(), f_b.data(), why, n); });
-}
-
-constexpr std::array<std::pair<const char*, ins_manoeuvre_kind_t>, 6> kinds = {
-    {{"hold", INS_MANOEUVRE_HOLD},
-     {"accelerate", INS_MANOEUVRE_ACCELERATE},
-     {"turn", INS_MANOEUVRE_TURN},
-     {"roll", INS_MANOEUVRE_ROLL},
-     {"pitch", INS_MANOEUVRE_PITCH},
-     {"yaw", INS_MANOEUVRE_YAW}}};
-
-Drive drive_manoeuvres(const ins_track_site_t& site, const std::vector<Manoeuvre>& plan, double start_s, double speed)
-{
-    std::vector<ins_manoeuvre_t> out;
-    for (const auto& [name, duration_s, amount] : plan)
-    {
-        out.push_back({named("manoeuvre", name, kinds), duration_s, amount});
-    }
-    return drive([&](char* why, size_t n)
-                 { return ins_drive_create_manoeuvres(&site, out.data(), out.size(), start_s, speed, why, n); });
-}
-
-#ifdef INS_TRUTH_CVODE
 using Event = std::tuple<nb::object, int, bool>; ///< function, direction, stops
 
 /// Owns the functions that CVODE calls back.
