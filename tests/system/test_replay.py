@@ -92,6 +92,16 @@ def test_wheels_hold_an_outage(tmp_path):
     assert helped["rms_m"] < 0.7 * alone["rms_m"]
 
 
+def test_another_axis_called_forward(tmp_path):
+    """The sensor's right as forward: a car that seems to drive sideways is turned as it drives."""
+    path = drive_kit.write(tmp_path, 3, SECONDS)
+    *_, result = solved(path, **{"imu.axes": "-y,-x,-z", "gnss.lever_arm_m": [0.0, 0.4, -1.1]})
+    told = next(note for note in result["notes"] if note.startswith("mounted"))
+    truth = np.rad2deg(drive_kit.mounting(3))
+    assert float(told.split()[1]) == pytest.approx(truth[2] + 90.0, abs=0.6)
+    assert result["outages"]["median_m"] < KF_GINS_MEDIAN_M
+
+
 def test_how_the_imu_is_mounted(tmp_path):
     config, drive, _, result = solved(drive_kit.write(tmp_path, 3, SECONDS))
     truth = np.rad2deg(drive_kit.mounting(3))

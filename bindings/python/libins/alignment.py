@@ -35,6 +35,8 @@ HEADING_TRUST = 2.0
 COURSE_SPEED = 4.0
 """Of a car whose course is its heading [m/s]."""
 COURSE_SIGMA = 0.06
+SIDEWAYS, SIDEWAYS_SURE = 0.8, 0.35
+"""A car does not drive so far from its heading; where that is known so well, another axis is forward [rad]."""
 TILT_SIGMA = 0.03
 BIAS_STILL, BIAS_UNKNOWN = 5e-4, 1e-2
 """Standard deviation of the gyros' bias after a rest, and without one [rad/s]."""
@@ -155,7 +157,10 @@ def align(increments: Increments, fixes: Gnss, car: bool, lever_arm: Array) -> S
         beta = v[inside[j]] - v[inside[i]] - down * (increments.t[place[j]] - increments.t[place[i]])[:, None]
         c, sigma = _fit(alpha, beta, float(np.median(sigma_v[inside[j], :2])))
         speed = float(np.hypot(*v[inside[k], :2]))
-        if car and speed > COURSE_SPEED:
+        course = np.arctan2(v[inside[k], 1], v[inside[k], 0])
+        heading = core.quat_to_euler(core.quat_mul(core.quat_from_dcm(c), q_bb0[place[k]]))[2]
+        sideways = sigma < SIDEWAYS_SURE and abs(np.angle(np.exp(1j * (course - heading)))) > SIDEWAYS
+        if car and speed > COURSE_SPEED and not sideways:
             return _start(increments, fixes, inside[k], place[k], c, q_bb0, bias, rests > 0, v, sigma_v, lever_arm,
                           COURSE_SIGMA, True)  # fmt: skip
         if best is None or sigma < best[0]:

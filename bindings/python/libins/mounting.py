@@ -47,18 +47,22 @@ def find(t: Array, v_n: Array, q_nb: Array, aided: Array, rate_hz: float) -> tup
     v_b = core.quat_rotate(core.quat_conj(q_nb), v_n)
     turning = np.gradient(np.unwrap(core.quat_to_euler(q_nb)[:, 2]), t)
     speed = np.linalg.norm(v_n, axis=1)
-    fast = aided & (speed > SPEED) & (v_b[:, 0] > 0.5 * speed)
+    fast = aided & (speed > SPEED)
+    about = float(np.angle(np.sum(v_b[fast, 0] + 1j * v_b[fast, 1])))
+    coarse = np.array([[np.cos(about), np.sin(about), 0.0], [-np.sin(about), np.cos(about), 0.0], [0.0, 0.0, 1.0]])
+    v_b = v_b @ coarse.T
+    fast &= v_b[:, 0] > 0.5 * speed
     if fast.sum() * np.median(np.diff(t)) < SECONDS:
         return None, "not long enough ahead at speed to see how the IMU is mounted: no non-holonomic constraint"
     ahead = v_b[fast, 0]
     (yaw, wheel), sideways = _line(np.column_stack([ahead, turning[fast]]), v_b[fast, 1])
     (pitch,), vertical = _line(ahead[:, None], -v_b[fast, 2])
     told = (
-        f"mounted {np.rad2deg(-yaw):+.2f} deg to the right, {np.rad2deg(-pitch):+.2f} deg up, {wheel:+.2f} m ahead of "
-        f"the axle; slips {sideways:.2f} m/s sideways, {vertical:.2f} m/s upward"
+        f"mounted {np.rad2deg(-about - yaw):+.2f} deg to the right, {np.rad2deg(-pitch):+.2f} deg up, {wheel:+.2f} m "
+        f"ahead of the axle; slips {sideways:.2f} m/s sideways, {vertical:.2f} m/s upward"
     )
     if max(sideways, vertical) > SLIP_MAX or abs(wheel) > WHEEL_MAX_M:
         return None, f"{told}: no non-holonomic constraint"
     back = np.asarray(core.quat_to_dcm(core.quat_from_euler(np.array([0.0, pitch, yaw])))).reshape(3, 3).T
     coloured = np.sqrt(2.0 * SLIP_S * rate_hz) * max(sideways, vertical)
-    return Mount(back, float(wheel), max(SIGMA_MIN, float(coloured))), told
+    return Mount(back @ coarse, float(wheel), max(SIGMA_MIN, float(coloured))), told
