@@ -1,6 +1,7 @@
 """`ins calib`: a real IMU, the reference accelerometers, the paper's tables; what is refused, and in which words."""
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -30,6 +31,7 @@ rho_m = 0.1
 file = "poses.csv"
 up = ["up_x", "up_y", "up_z"]
 rate = ["w_x", "w_y", "w_z"]
+rate_unit = "{unit}"
 readings = ["a1", "a2", "a3", "a4", "a5", "a6"]
 [full]
 noise_m_s2 = 1e-3
@@ -40,15 +42,18 @@ def vector(name: str) -> dict:
     return json.loads((VECTORS / name).read_text(encoding="utf-8"))
 
 
-def poses_csv(folder: Path, rows: int | None = None) -> Path:
+def poses_csv(folder: Path, rows: int | None = None, rate_unit: str = "rad/s") -> Path:
     """The reference file's noisy readings as a user has them."""
+    unit = math.degrees(1.0) if rate_unit == "deg/s" else 1.0
     file = vector("calib_full.json")
     lines = [",".join([*UP, *RATE, *(f"a{a['acc']}" for a in file["acc"])])]
     for k, m in enumerate(file["meas"][:rows]):
-        lines.append(",".join(repr(v) for v in [*m[:6], *(a["y_noisy"][k] for a in file["acc"])]))
+        lines.append(
+            ",".join(repr(v) for v in [*m[:3], *(unit * w for w in m[3:6]), *(a["y_noisy"][k] for a in file["acc"])])
+        )
     (folder / "poses.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
     declaration = folder / "full.toml"
-    declaration.write_text(FULL.format(g=file["g"]), encoding="utf-8")
+    declaration.write_text(FULL.format(g=file["g"], unit=rate_unit), encoding="utf-8")
     return declaration
 
 
@@ -88,10 +93,11 @@ def test_a_real_imu(ins, tmp_path):
         subprocess.run([tmp_path / "imu"], check=True)
 
 
-def test_six_accelerometers_in_full(ins, tmp_path):
+@pytest.mark.parametrize("rate_unit", ["rad/s", "deg/s"])
+def test_six_accelerometers_in_full(ins, tmp_path, rate_unit):
     """What is written is what core takes: bias, SF u and place of the reference file's own minimum."""
     out = tmp_path / "six.toml"
-    done = ins("calib", poses_csv(tmp_path), "--out", out, "--header", tmp_path / "six.h")
+    done = ins("calib", poses_csv(tmp_path, rate_unit=rate_unit), "--out", out, "--header", tmp_path / "six.h")
     assert done.returncode == 0, done.stderr
     bias, axis, place = calibration.accelerometers(out)
     for j, a in enumerate(vector("calib_full.json")["acc"]):
