@@ -10,6 +10,7 @@
 #include "ins_dds/ros.h"
 #include "ins_nav/nav.h"
 #include "ins_nav/nav_input.h"
+#include "ins_nav/six.h"
 #include "ins_truth/accel.h"
 #include "ins_truth/gps.h"
 #include "ins_truth/gyro.h"

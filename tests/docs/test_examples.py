@@ -35,6 +35,8 @@ OWN_NAMES = {
     "static ins_gps_ins_align_config_t how; static ins_gps_ins_t n; static int64_t t_ns; static int new_fix;",
     "ins/kf15.h": "static ins_strapdown_t s; static ins_real sigma[15]; static ins_kf15_sensors_t sensors;",
     "ins/q31.h": "int32_t q_nb0[4] = {0}, dtheta_b[3] = {0};",
+    "ins_nav/six.h": "static ins_nav_six_t six; static ins_nav_six_config_t config; static ins_nav_six_state_t state;"
+    "static ins_nav_link_t link; static ins_nav_sample_t sample; static double lat_lon_height[3], age_s, sigma_m[3];",
     "ins/still.h": "static ins_still_config_t config;",
 }
 

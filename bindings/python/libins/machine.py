@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from libins import _run, faults, sixacc, sixacc_calibration
+from libins import _run, faults, gyro_free, sixacc, sixacc_calibration
 from libins.errors import UsageError
 from libins.motions import motion_of
 from libins.program import Program
@@ -138,7 +138,8 @@ def config_of(
 
 def nav_of(nav: Nav, gyro: Any) -> Any:
     """A receiver and navigator."""
-    return _run.nav(nav.period_s, nav.block_len, nav.sequence, nav.form, nav.rate_order, nav.skew_s, gyro)
+    skew_s = nav.skew_s[: len(AXES)]
+    return _run.nav(nav.period_s, nav.block_len, nav.sequence, nav.form, nav.rate_order, skew_s, gyro)
 
 
 def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: bool = False, seen: bool = False) -> Any:
@@ -159,7 +160,10 @@ def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: boo
         config.start_at_truth = tables.nav.start == "truth"
     try:
         if tables.sixacc is not None:
-            config.set_accels(sixacc.accels_of(tables.sixacc, seed), track_of(scenario))
+            accels = sixacc.accels_of(tables.sixacc, seed)
+            config.set_accels(accels, track_of(scenario))
+            if config.nav is not None:
+                config.set_six_nav(gyro_free.nav_of(scenario, config.nav, accels, seed))
         run = _run.Run(config, motion_of(scenario), gyro)
     except ValueError as error:
         raise UsageError(f"{scenario.path}: {error}") from error
@@ -191,6 +195,7 @@ class AcquisitionMachine:
         self.run = build(scenario, seed, outside, trace=trace, seen=seen)
         if scenario.tables.sixacc is not None:
             self.scan_columns = _run.SIX_SCAN_COLUMNS
+            self.columns = gyro_free.STATE_COLUMNS
         self._calibration = None
         if scenario.tables.calibration is not None:
             self._calibration = partial(sixacc_calibration.measured, scenario, seed, track_of(scenario))
@@ -248,7 +253,8 @@ class AcquisitionMachine:
             ran["calibration"] = self._calibration(self.run)
         if not self.navigates:
             return {**ran, "link": None, "attitude": None, "age_s": None}
-        return {**ran, "link": link_of(c, states), **accuracy(states)}
+        six = gyro_free.solved(states) if self.columns is gyro_free.STATE_COLUMNS else {}
+        return {**ran, "link": link_of(c, states), **accuracy(states), **six}
 
     def close(self) -> None:
         """See Machine."""

@@ -79,7 +79,7 @@ def html(scenario: Loaded, result: Result, view: views.View | None = None) -> st
     environment = Environment(
         loader=PackageLoader("libins", "."), autoescape=select_autoescape(), trim_blocks=True, lstrip_blocks=True
     )
-    scored = len(result.states) > 0 and list(result.columns) == list(COLUMNS)
+    scored = len(result.states) > 0 and list(result.columns[: len(COLUMNS)]) == list(COLUMNS)
     return environment.get_template("report.html").render(
         summary=result.summary,
         plot=_markup(_plot(result)),

@@ -126,7 +126,7 @@ def execute(scenario: Loaded, options: Options) -> Result:
 
 def _execute(scenario: Loaded, options: Options, machine: Machine, seed: int, stop_s: float) -> Result:
     tables = scenario.tables
-    if options.publish is not None and machine.navigates and list(machine.columns) != list(COLUMNS):
+    if options.publish is not None and machine.navigates and list(machine.columns[: len(COLUMNS)]) != list(COLUMNS):
         raise UsageError(f"{scenario.path}: {NO_SOLUTIONS}")
     if options.watch is not None:
         options.watch.begin(machine.subject)

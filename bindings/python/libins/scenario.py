@@ -19,8 +19,8 @@ import numpy as np
 from libins import faults, hexfile, net_scenario, sixacc_calibration, sixacc_tables
 from libins.errors import UsageError
 from libins.schema import Document, field
-from libins.sensor_tables import Track, read_track
-from libins.sixacc_tables import Calibration, SixAcc
+from libins.sensor_tables import Gps, Track, check_lengths, check_outages, read_track
+from libins.sixacc_tables import Calibration, GyroFree, SixAcc
 from libins.tables import (
     ACQUISITION,
     FLASH_OCTETS,
@@ -61,6 +61,8 @@ class Tables(Acquisition, Common):
     sixacc: SixAcc | None = field(None)
     calibration: Calibration | None = field(None)
     track: Track = field(Track)
+    gps: Gps = field(Gps)
+    gyro_free: GyroFree = field(GyroFree)
 
 
 @dataclass(frozen=True)
@@ -144,12 +146,16 @@ def read(document: Document, firmware: Path | None = None, combination: Mapping[
     check_acquisition(document, (), tables)
     if tables.sixacc is not None:
         sixacc_tables.check(document, tables.sixacc)
-    elif "track" in document.table:
-        raise document.refuse(("track",), "needs a [sixacc] table: gyros do not feel where the board goes")
+        sixacc_tables.check_gyro_free(document, tables.gyro_free)
+        check_lengths(document, ("gps",), tables.gps)
+        check_outages(document, tables.gps.outages_s)
+    for name in ("track", "gps", "gyro_free"):
+        if name in document.table and tables.sixacc is None:
+            raise document.refuse((name,), "needs a [sixacc] table: gyros do not feel where the board goes")
     if tables.calibration is not None:
         sixacc_calibration.check(document, tables.calibration, tables.motion, tables.sixacc)
     if tables.nav is not None:
-        check_nav(document, ("nav",), tables.nav)
+        check_nav(document, ("nav",), tables.nav, 3 if tables.sixacc is None else sixacc_tables.COUNT)
     elif tables.stop_samples is not None:
         raise document.refuse(("stop_samples",), "counts the navigator's samples, but there is no [nav] table")
     faults.check(document, tables.fault, faults.acquisition(RAM_OCTETS[tables.part]))

@@ -55,6 +55,7 @@ class Gps:
     """The receiver's errors."""
 
     preset: str = field("ideal", choices=("ideal", "single_frequency", "none"))
+    period_s: float | None = field(None, minimum=0.01, maximum=100.0)
     latency_s: float | None = field(None, minimum=0.0, maximum=10.0)
     white_m: list[float] | None = field(None, minimum=0.0)
     markov_m: list[float] | None = field(None, minimum=0.0)

@@ -13,7 +13,7 @@ from libins.sensor_tables import Gimu, Gps, Track
 
 OF_CHANNELS = ("null_v", "drift_v_s", "scale_error", "sensitivity", "bandwidth_hz", "noise_density")
 OF_PART = ("vcc_v", "power_up_s", "baud", "nmea_baud", "nmea_delay_s", "order", "no_fix", "geoid_m", "utc_s")
-OF_GPS = ("latency_s", "white_m", "markov_m", "markov_tau_s", "velocity_m_s", "sats", "hdop", "first_fix_s")
+OF_GPS = ("period_s", "latency_s", "white_m", "markov_m", "markov_tau_s", "velocity_m_s", "sats", "hdop", "first_fix_s")
 
 
 def track_of(scenario: NetScenario | Scenario) -> Any:

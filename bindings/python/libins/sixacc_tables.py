@@ -43,6 +43,23 @@ class Calibration:
     paper: bool = field(False)
 
 
+@dataclass(frozen=True, kw_only=True)
+class GyroFree:
+    """What their navigator is told: standard deviations at the start, and how long it stands still."""
+
+    attitude_rad: list[float] = field([0.01, 0.01, 0.01], minimum=0.0, maximum=1.0)
+    velocity_m_s: float = field(0.01, minimum=0.0, maximum=1e3)
+    position_m: float = field(0.1, minimum=0.0, maximum=1e6)
+    rate_rad_s: float = field(1e-4, minimum=0.0, maximum=10.0)
+    bias_m_s2: float | None = field(None, minimum=0.0, maximum=100.0)
+    bias_walk_m_s2_rts: float = field(0.0, minimum=0.0, maximum=1.0)
+    still_s: float = field(0.0, minimum=0.0, maximum=1e6)
+    still_m_s: float = field(1e-3, above=0.0, maximum=10.0)
+    still_rad_s: float = field(1e-3, above=0.0, maximum=10.0)
+    gate: float = field(0.0, minimum=0.0)
+    gps_m: list[float] | None = field(None, above=0.0, maximum=1e6)
+
+
 def check(document: Document, table: SixAcc) -> None:
     """What one key alone cannot show. Raises UsageError."""
     for name, value in vars(table).items():
@@ -54,3 +71,11 @@ def check(document: Document, table: SixAcc) -> None:
             if isinstance(row, list) and len(row) != VECTORS[name]:
                 needed = f"{VECTORS[name]} numbers are needed"
                 raise document.refuse(("sixacc", name, str(i)), f"found {row!r}, but {needed}")
+
+
+def check_gyro_free(document: Document, table: GyroFree) -> None:
+    """As check. Raises UsageError."""
+    for key, value in (("attitude_rad", table.attitude_rad), ("gps_m", table.gps_m)):
+        if value is not None and len(value) != 3:
+            found = f"found {value!r}, but 3 numbers (north, east, down) are needed"
+            raise document.refuse(("gyro_free", key), found)

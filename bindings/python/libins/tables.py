@@ -224,10 +224,14 @@ def check_acquisition(document: Document, place: Place, board: Acquisition) -> N
             raise document.refuse((*place, "analog", str(i), "channel"), f"found {channel} again; one table a channel")
 
 
-def check_nav(document: Document, place: Place, nav: Nav) -> None:
+def check_nav(document: Document, place: Place, nav: Nav, channels: int = 3) -> None:
     """As check_common."""
-    if len(nav.skew_s) != 3 or max(nav.skew_s) >= nav.period_s:
-        raise document.refuse((*place, "skew_s"), "three delays (X, Y, Z) below period_s are needed")
+    if len(nav.skew_s) != channels or max(nav.skew_s) >= nav.period_s:
+        raise document.refuse((*place, "skew_s"), f"{channels} delays, one a channel, below period_s are needed")
+    if nav.block_len < 2 * channels:
+        raise document.refuse(
+            (*place, "block_len"), f"found {nav.block_len}, but {channels} channels need two octets each"
+        )
 
 
 def check_cuts(document: Document, place: Place, cuts_s: Sequence[Sequence[float]]) -> None:

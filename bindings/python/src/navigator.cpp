@@ -44,6 +44,12 @@ void Navigator::begin(const ins_nav_config_t& cfg, bool truth)
     ins_nav_link_init(&link, &config);
 }
 
+void Navigator::begin(const SixConfig& cfg, std::shared_ptr<ins_track_t> track)
+{
+    begin(cfg.nav.link, true);
+    six.emplace(cfg, std::move(track));
+}
+
 void Navigator::tick(emu_time_t at)
 {
     ins_nav_link_tick(&link, static_cast<uint64_t>(at / ms));
@@ -84,6 +90,28 @@ std::optional<size_t> Navigator::origin_of(const ins_nav_sample_t& sample, const
     return std::nullopt;
 }
 
+bool Navigator::solve(const ins_nav_sample_t& sample, double t, const ins_motion_t* motion, Scored& scored)
+{
+    if (six)
+    {
+        const bool usable = six->step(sample, t, !started, scored.state, scored.q_nb, scored.more);
+        scored.euler = euler_of(scored.q_nb.data());
+        return usable;
+    }
+    if (!started)
+    {
+        ins_nav_config_t cfg = config;
+        if (start_at_truth)
+        {
+            ins_motion_attitude(motion, t, cfg.q_nb);
+        }
+        ins_nav_solver_init(&solver, &cfg);
+    }
+    ins_motion_attitude(motion, t, scored.q_nb.data());
+    ins_motion_euler(motion, t, scored.euler.data());
+    return ins_nav_solver_step(&solver, &sample, &scored.state) >= 0;
+}
+
 void Navigator::navigate(const ins_nav_sample_t& sample, emu_time_t at, const std::vector<Scan>& scans,
                          const ins_motion_t* motion)
 {
@@ -100,27 +128,17 @@ void Navigator::navigate(const ins_nav_sample_t& sample, emu_time_t at, const st
     const size_t scan = origin.value_or(count - 1);
     last_scan = scan;
     const double t = static_cast<double>(scans[scan].at[0]) * 1e-12;
-    if (!started)
-    {
-        ins_nav_config_t cfg = config;
-        if (start_at_truth)
-        {
-            ins_motion_attitude(motion, t, cfg.q_nb);
-        }
-        ins_nav_solver_init(&solver, &cfg);
-        started = true;
-        first_scan = scan;
-    }
     Scored scored;
-    if (ins_nav_solver_step(&solver, &sample, &scored.state) < 0)
+    const bool usable = solve(sample, t, motion, scored);
+    first_scan = started ? first_scan : scan;
+    started = true;
+    if (!usable)
     {
         return;
     }
     scored.scan = scan;
     scored.t_s = t;
     scored.age_s = static_cast<double>(at) * 1e-12 - t;
-    ins_motion_attitude(motion, t, scored.q_nb.data());
-    ins_motion_euler(motion, t, scored.euler.data());
     scored.estimate = euler_of(scored.state.q_nb);
     for (size_t i = 0; i < 3; i++)
     {

@@ -60,7 +60,8 @@ Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const in
     open_sensors(gyro);
     if (config_.nav)
     {
-        navigator_.begin(*config_.nav, config_.start_at_truth);
+        config_.six_nav ? navigator_.begin(*config_.six_nav, config_.track)
+                        : navigator_.begin(*config_.nav, config_.start_at_truth);
     }
     emu_sched_init(&sched_);
     acq_board_config_t board;

@@ -63,6 +63,7 @@ struct RunConfig
     std::optional<ins_accel_config_t> accels; ///< accelerometers on the track
     std::shared_ptr<ins_track_t> track;
     std::optional<ins_front_end_channel_t> front_end; ///< its rails are the sensors'
+    std::optional<SixConfig> six_nav;                 ///< with nav: their navigator
     bool six = false;                                 ///< the board of acq_board_six_config()
     bool listen = false;  ///< keep the octets that the host receives, also where the navigator takes them
     bool outside = false; ///< what is beyond the host's wires is somebody else's, the transmitter too

@@ -31,8 +31,6 @@ using libins::Scored;
 namespace
 {
 
-constexpr size_t scored_columns = 31;
-
 std::vector<double> scored_row(const Scored& s)
 {
     std::vector<double> row = {static_cast<double>(s.state.index), static_cast<double>(s.scan), s.t_s, s.age_s};
@@ -47,6 +45,7 @@ std::vector<double> scored_row(const Scored& s)
     {
         row.push_back(static_cast<double>(value));
     }
+    row.insert(row.end(), s.more.begin(), s.more.end());
     return row;
 }
 
@@ -66,13 +65,14 @@ nb::tuple libins::states_table(const std::vector<Scored>& states)
 {
     std::vector<double> values;
     nb::list raw;
+    const size_t columns = states.empty() ? 0 : scored_row(states.front()).size();
     for (const Scored& state : states)
     {
         const std::vector<double> row = scored_row(state);
         values.insert(values.end(), row.begin(), row.end());
         raw.append(nb::bytes(&state.state, sizeof state.state));
     }
-    return nb::make_tuple(table(states.size(), scored_columns, std::move(values)), raw);
+    return nb::make_tuple(table(states.size(), columns, std::move(values)), raw);
 }
 
 void libins::put_counts(nb::dict& d, const ins_nav_counts_t& counts)
@@ -283,6 +283,7 @@ NB_MODULE(_run, m)
            "config"_a, "motion"_a, "gyro"_a)
         .def("until", &Run::until, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
         .def_prop_ro("now_ps", &Run::now)
+        .def_prop_ro("channels", &Run::channels)
         .def("take_states", [](Run& self) { return libins::states_table(self.take_states()); })
         .def("take_edges", take_edges)
         .def("take_octets",

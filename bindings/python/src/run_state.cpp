@@ -144,6 +144,7 @@ void board_of(emu_state_t* io, acq_board_t* board)
 void Run::walk(emu_state_t* io)
 {
     same(io, config_.nav ? 1 : 0);
+    same(io, channels());
     board_of(io, board_.get());
     emu_wire_state(&host_rxd_, io);
     emu_wire_state(&host_txd_, io);
@@ -155,6 +156,11 @@ void Run::walk(emu_state_t* io)
     faults_->state(io);
     plain(io, navigator_.link);
     plain(io, navigator_.solver);
+    if (navigator_.six)
+    {
+        plain(io, navigator_.six->solver);
+        emu_state_i64(io, &navigator_.six->last_fix);
+    }
     emu_state_bool(io, &navigator_.started);
     size(io, navigator_.first_scan);
     size(io, navigator_.last_scan);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 #include <stdexcept>
 
 namespace nb = nanobind;
@@ -17,6 +19,7 @@ namespace
 {
 
 constexpr double ref_v[2] = {0.0, 5.0}; ///< of the board's converter
+constexpr double null_code = 2048.0;
 constexpr unsigned count = INS_NAV_CHANNELS;
 constexpr std::array<std::pair<const char*, double ins_accel_channel_t::*>, 4> keys = {
     {{"bias_m_s2", &ins_accel_channel_t::bias},
@@ -59,6 +62,36 @@ void set(ins_accel_config_t& self, const std::string& key, const std::array<doub
     throw std::invalid_argument("an accelerometer has no " + key);
 }
 
+/// filter: its figures in the order of ins_gyro_free_config_t. still: for how long, and how still [s, m/s, rad/s]. The navigator takes
+/// the accelerometers for what `accels` says but for their noise.
+void init_nav(SixConfig* self, const ins_nav_config_t& nav, const ins_accel_config_t& accels, double lsb_m_s2,
+              const std::array<double, count>& delay_s, const std::array<double, 10>& filter,
+              const std::array<double, 3>& still, uint64_t seed)
+{
+    new (self) SixConfig();
+    self->seed = seed;
+    self->nav.link = nav;
+    self->nav.link.channels = count;
+    std::copy(delay_s.begin(), delay_s.end(), self->nav.link.delay_s);
+    self->nav.lsb_m_s2 = lsb_m_s2;
+    self->nav.null_code = null_code;
+    for (size_t j = 0; j < count; j++)
+    {
+        ins_accel_t& taken = self->nav.accels[j];
+        taken.bias = accels.channel[j].bias;
+        for (size_t i = 0; i < 3; i++)
+        {
+            taken.axis[i] = (1.0 + accels.channel[j].scale_error) * accels.channel[j].axis[i];
+            taken.r[i] = accels.channel[j].r[i];
+        }
+    }
+    self->nav.filter = {filter[0], filter[1], filter[2], {filter[3], filter[4], filter[5]},
+                        filter[6], filter[7], filter[8], filter[9]};
+    self->nav.still_s = still[0];
+    self->nav.still_m_s = still[1];
+    self->nav.still_rad_s = still[2];
+}
+
 } // namespace
 
 void bind_sixacc(nb::module_& m, nb::class_<RunConfig>& config)
@@ -87,6 +120,20 @@ void bind_sixacc(nb::module_& m, nb::class_<RunConfig>& config)
             return paper;
         },
         "rho_m"_a, "range_m_s2"_a, "Table 1 of Hung, Fang, Wang and Lee; +-range over the converter's 0 to 5 V.");
+    m.attr("SIX_COLUMNS") =
+        nb::cast(std::vector<std::string>(SixNavigator::columns.begin(), SixNavigator::columns.end()));
+    nb::class_<SixConfig>(m, "SixNav", "Receiver and navigator of six accelerometers; see ins_nav/six.h.")
+        .def("__init__", init_nav, "nav"_a, "accels"_a, "lsb_m_s2"_a, "delay_s"_a, "filter"_a, "still"_a, "seed"_a)
+        .def_rw("gps", &SixConfig::gps)
+        .def_rw("gps_sigma_m", &SixConfig::gps_sigma_m);
+    config.def(
+        "set_six_nav",
+        [](RunConfig& self, const SixConfig& six)
+        {
+            self.nav = six.nav.link;
+            self.six_nav = six;
+        },
+        "six"_a);
     config.def(
         "set_accels",
         [](RunConfig& self, const ins_accel_config_t& accels, const Track& track)

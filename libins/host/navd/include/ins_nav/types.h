@@ -39,12 +39,13 @@ typedef struct ins_nav_config_t
     int form;                  ///< INS_CONING_ONE or INS_CONING_HIST*
     uint8_t rate_order;        ///< Adams-Moulton order, 2..5
     uint8_t skew_order;        ///< 1..3; used when a delay is not zero
-    double delay_s[3];         ///< channel i is sampled delay_s[i] after the instant of the sample; all 0 = off [s]
-    double lsb_rad_s[3];       ///< rate per code [rad/s]
-    double null_code[3];       ///< code at rest
-    uint16_t code_max;         ///< full scale; a larger value is no sample and is refused. At most 4095 with seq
-    double q_nb[4];            ///< attitude at the first sample, scalar first
-    uint32_t bridge_max;       ///< lost samples in a row that may be bridged without INS_NAV_LONG_GAP
+    double
+        delay_s[INS_NAV_CHANNELS]; ///< channel i is sampled delay_s[i] after the instant of the sample; all 0 = off [s]
+    double lsb_rad_s[3];           ///< rate per code [rad/s]
+    double null_code[3];           ///< code at rest
+    uint16_t code_max;             ///< full scale; a larger value is no sample and is refused. At most 4095 with seq
+    double q_nb[4];                ///< attitude at the first sample, scalar first
+    uint32_t bridge_max;           ///< lost samples in a row that may be bridged without INS_NAV_LONG_GAP
     uint32_t clock_tolerance; ///< periods by which arrival time and sequence number may differ without INS_NAV_DISAGREE
 } ins_nav_config_t;
 
