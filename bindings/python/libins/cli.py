@@ -14,6 +14,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
 from libins import (
+    allan_cli,
     calib_cli,
     campaign,
     debug_cli,
@@ -126,6 +127,7 @@ def parser() -> argparse.ArgumentParser:
     )
     debug_cli.options(g)
 
+    allan_cli.options(commands.add_parser("allan", help="noise coefficients of a sensor that was recorded at rest"))
     sim_cli.options(commands.add_parser("sim", help="a known motion and what sensors on it say, as CSV"))
     calib_cli.options(
         commands.add_parser("calib", help="calibrate accelerometers, or a triad with gyros, from readings in poses")
@@ -415,6 +417,7 @@ def main(arguments: list[str] | None = None) -> int:
         options = parser().parse_args(arguments)
         commands = {
             "run": _run_command,
+            "allan": allan_cli.run,
             "campaign": campaign.command,
             "debug": debug_cli.run,
             "replay": replay_cli.run,
