@@ -260,6 +260,8 @@ TEST(cpp_gps_dr, both_pairs_do_what_their_c_functions_do)
     EXPECT_EQ(local.judge({x(0), x(1)}, 9, nis, det), ins::Status::Ok);
     EXPECT_NEAR(static_cast<double>(nis), 0, 1e-9);
     EXPECT_EQ(local.course(x(2), INS_C(0.01)), ins::Status::Ok);
+    EXPECT_EQ(local.travel(INS_C(0.1), 0, INS_C(0.8)), ins::Status::Ok);
+    EXPECT_NEAR(static_cast<double>(local.x()(INS_UNICYCLE_NORTH) - x(INS_UNICYCLE_NORTH)), 0.8, 0.05);
 }
 
 TEST(cpp_vector_gps_dr, switch_with_hysteresis)

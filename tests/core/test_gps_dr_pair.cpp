@@ -151,8 +151,7 @@ TEST(gps_dr_pair, sharing_is_the_filter_that_takes_everything)
             const auto rate = static_cast<ins_real>(sensed[0]);
             const auto distance = static_cast<ins_real>(sensed[1]);
             ASSERT_EQ(ins_gps_dr_step(&n, INS_C(0.1), rate, distance), INS_OK);
-            ASSERT_EQ(ins_unicycle_odometer(&central, INS_C(0.1), distance, nullptr), INS_OK);
-            ASSERT_EQ(ins_unicycle_predict(&central, INS_C(0.1), rate), INS_OK);
+            ASSERT_EQ(ins_unicycle_travel(&central, INS_C(0.1), rate, distance), INS_OK);
         }
         const ins_gps_dr_fix_t f = car.fix();
         ASSERT_EQ(ins_gps_dr_fix(&n, &f), INS_OK);
@@ -381,76 +380,32 @@ TEST(gps_dr_pair, refuses_bad_figures_unchanged)
     EXPECT_TRUE(unchanged());
 }
 
-TEST(gps_dr_paper, switches_at_once_as_printed_and_with_hysteresis_as_corrected)
+TEST(gps_dr_pair, coarse_counts_do_not_move_the_scale)
 {
-    for (const int reading : {INS_GPS_DR_PAPER_PRINTED, INS_GPS_DR_PAPER_CORRECTED})
+    const double quantum = 0.04; // [m]: 0.4 m/s in 100 ms
+    ins_gps_dr_config_t cfg = config();
+    cfg.vehicle.r_distance = static_cast<ins_real>(quantum * quantum / 6);
+    ins_gps_dr_t n;
+    ASSERT_EQ(ins_gps_dr_init(&n, &cfg), INS_OK);
+    Car car(1, 9);
+    double way = 0;
+    double counted = 0;
+    while (car.t < 299.95)
     {
-        const bool printed = reading == INS_GPS_DR_PAPER_PRINTED;
-        ins_gps_dr_paper_config_t cfg;
-        ins_gps_dr_paper_t p;
-        ins_real x[4];
-        ins_real var[4];
-        ins_gps_dr_paper_config_default(&cfg, reading);
-        ASSERT_EQ(ins_gps_dr_paper_init(&p, &cfg), INS_OK);
-        EXPECT_EQ(ins_gps_dr_paper_state(&p, x, var), INS_E_STATE);
-        ins_gps_dr_fix_t f = {};
-        f.valid = 1;
-        f.sats = 8;
-        f.hdop = 1;
-        f.east = 100;
-        const auto epoch = [&](ins_real north)
-        {
-            f.north = north;
-            EXPECT_EQ(ins_gps_dr_paper_fix(&p, &f), INS_OK);
-            for (int k = 0; k < 10; k++)
-            {
-                EXPECT_EQ(ins_gps_dr_paper_step(&p, 0, INS_C(0.8)), INS_OK);
-            }
-            return ins_gps_dr_paper_source(&p);
-        };
-        EXPECT_EQ(epoch(0), printed ? INS_GPS_DR_GPS : INS_GPS_DR_DR);
-        EXPECT_EQ(epoch(8), printed ? INS_GPS_DR_GPS : INS_GPS_DR_DR);
-        for (int k = 2; k < 20; k++)
-        {
-            EXPECT_EQ(epoch(static_cast<ins_real>(8 * k)), INS_GPS_DR_GPS);
-        }
-        ASSERT_EQ(ins_gps_dr_paper_state(&p, x, var), INS_OK);
-        EXPECT_NEAR(static_cast<double>(x[0]), 100, 1);
-        EXPECT_NEAR(static_cast<double>(x[1]), 160, 3) << "the fix and a second of reckoning";
-        EXPECT_NEAR(static_cast<double>(x[3]), 8, 0.5);
-        EXPECT_GT(var[0], 0);
-        f.valid = 0;
-        EXPECT_EQ(epoch(0), INS_GPS_DR_DR);
-        f.valid = 1;
-        EXPECT_EQ(epoch(168), printed ? INS_GPS_DR_GPS : INS_GPS_DR_DR);
-        EXPECT_EQ(epoch(1000), printed ? INS_GPS_DR_GPS : INS_GPS_DR_DR) << "800 m off";
-        f.east = NOT_A_NUMBER;
-        EXPECT_EQ(ins_gps_dr_paper_fix(&p, &f), INS_E_RANGE);
-        cfg.axis.dt = 0;
-        EXPECT_EQ(ins_gps_dr_paper_init(&p, &cfg), INS_E_RANGE);
+        double sensed[2];
+        car.step(sensed);
+        way += sensed[1];
+        const double now = quantum * std::floor(way / quantum);
+        ASSERT_EQ(
+            ins_gps_dr_step(&n, INS_C(0.1), static_cast<ins_real>(sensed[0]), static_cast<ins_real>(now - counted)),
+            INS_OK);
+        counted = now;
+        ins_gps_dr_fix_t f = car.fix();
+        ASSERT_EQ(std::fabs(car.t - std::round(car.t)) < T / 2 ? ins_gps_dr_fix(&n, &f) : INS_OK, INS_OK);
     }
-}
-
-TEST(unicycle, course_and_judgement)
-{
-    const ins_unicycle_config_t cfg = {4, 0, 0, INS_C(1e-4), INS_C(0.0025), 0, 0};
-    const ins_real x0[6] = {0, 0, 3, 8, 0, 1};
-    const ins_real var[6] = {5, 5, INS_C(0.01), 1, 0, 0};
-    ins_unicycle_t f;
-    ASSERT_EQ(ins_unicycle_init(&f, &cfg, x0, var), INS_OK);
-    f.P[1] = f.P[6] = 3;
-    ins_real nis = 0;
-    ins_real det = 0;
-    ASSERT_EQ(ins_unicycle_judge(&f, 9, -6, 4, &nis, &det), INS_OK); // S = [9 3; 3 9], as in test_gps_dr
-    EXPECT_NEAR(static_cast<double>(nis), 19.125, 1e-5);
-    EXPECT_NEAR(static_cast<double>(det), 72, 1e-4);
-    EXPECT_EQ(ins_unicycle_judge(&f, 9, NOT_A_NUMBER, 4, &nis, &det), INS_E_RANGE);
-    EXPECT_EQ(ins_unicycle_judge(&f, 9, -6, 0, &nis, &det), INS_E_RANGE);
-    const auto across = static_cast<ins_real>(3.1 - 2 * PI); // a tenth of a radian on, beyond the seam
-    ASSERT_EQ(ins_unicycle_course(&f, across, INS_C(0.01), 0, &nis), INS_OK);
-    EXPECT_NEAR(static_cast<double>(f.x[2]), 3.05, 1e-6);
-    EXPECT_NEAR(static_cast<double>(nis), 0.5, 1e-4);
-    EXPECT_EQ(ins_unicycle_course(&f, 0, INS_C(0.01), INS_KALMAN_GATE_999, &nis), INS_E_GATE);
-    EXPECT_EQ(ins_unicycle_course(&f, NOT_A_NUMBER, 1, 0, nullptr), INS_E_RANGE);
-    EXPECT_EQ(ins_unicycle_course(&f, 3, 0, 0, nullptr), INS_E_RANGE);
+    ins_real x[6];
+    ins_real P[36];
+    ASSERT_EQ(ins_gps_dr_state(&n, x, P), INS_OK);
+    EXPECT_NEAR(static_cast<double>(x[5]), ODOMETER, 4 * std::sqrt(static_cast<double>(P[35])));
+    EXPECT_LT(P[35], INS_C(0.005) * INS_C(0.005));
 }

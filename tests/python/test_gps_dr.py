@@ -1,4 +1,4 @@
-"""Decentralised GPS and dead reckoning from Python: the same drive in both, ours finds its way and says what it rests on."""
+"""Decentralised GPS and dead reckoning from Python: one drive for both, and what the position rests on."""
 
 import copy
 import math
@@ -46,9 +46,9 @@ def test_ours(ins):
     list(drive(n, step, 60, False, pose, rng))
     assert n.source == ins.GPS_DR_DR
     assert before.source == ins.GPS_DR_GPS
-    x, P = n.state()
+    x, p = n.state()
     error = x[:2] - pose[:2]
-    assert error @ np.linalg.solve(P[:2, :2], error) < 13.8, f"seed {SEED}: {error} m"  # chi-squared, 99.9 %
+    assert error @ np.linalg.solve(p[:2, :2], error) < 13.8, f"seed {SEED}: {error} m"  # chi-squared, 99.9 %
     assert np.hypot(*error) < 30
     with pytest.raises(ins.GateError, match=r"GpsDr\.fix"):
         n.fix(1e6, 0, SIGMA, sats=8, hdop=1)

@@ -138,6 +138,7 @@ def parser() -> argparse.ArgumentParser:
     _dds_options(p)
 
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
+    commands.add_parser("gpsdr", help="start ins-gpsdr; every option is its own (ins gpsdr --help)", add_help=False)
 
     keys_cli.options(commands.add_parser("keys", help="make certificates and permissions for DDS Security"))
 
@@ -373,11 +374,11 @@ def _page() -> Any:
     return page
 
 
-def navd_path() -> Path:
-    """Where the daemon's binary is. Raises UsageError."""
-    path = PACKAGE / "bin" / "ins-navd"
+def navd_path(name: str = "ins-navd") -> Path:
+    """Where a daemon's binary is. Raises UsageError."""
+    path = PACKAGE / "bin" / name
     if not path.exists():
-        raise UsageError(f"{path}: ins-navd is not built; run ./dev demo or ./dev test once")
+        raise UsageError(f"{path}: {name} is not built; run ./dev demo or ./dev test once")
     return path
 
 
@@ -411,8 +412,8 @@ def main(arguments: list[str] | None = None) -> int:
     """Entry point. Returns the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
     try:
-        if arguments[:1] == ["nav"]:
-            path = navd_path()
+        if arguments[:1] in (["nav"], ["gpsdr"]):
+            path = navd_path("ins-navd" if arguments[0] == "nav" else "ins-gpsdr")
             os.execv(path, [str(path), *arguments[1:]])
         options = parser().parse_args(arguments)
         commands = {

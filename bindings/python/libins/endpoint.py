@@ -173,10 +173,11 @@ def open_endpoint(option: str, names: Sequence[str]) -> tuple[str, Endpoint]:
         raise UsageError(
             f"--serial {option}: this board has no serial line {name!r}; {known if names else 'it has none'}"
         )
-    return name, _opened(option, rest)
+    return name, opened(f"--serial {option}", rest)
 
 
-def _opened(option: str, rest: str) -> Endpoint:
+def opened(option: str, rest: str) -> Endpoint:
+    """From `pty[:LINK]`, `tcp:PORT` or `file:PATH`; option: how it was given. Raises UsageError."""
     kind, _, argument = rest.partition(":")
     if kind == "pty":
         return Pty(argument)
@@ -184,4 +185,4 @@ def _opened(option: str, rest: str) -> Endpoint:
         return Tcp(int(argument))
     if kind == "file" and argument:
         return File(argument)
-    raise UsageError(f"--serial {option}: found {rest!r}, but pty, pty:LINK, tcp:PORT or file:PATH is needed")
+    raise UsageError(f"{option}: found {rest!r}, but pty, pty:LINK, tcp:PORT or file:PATH is needed")

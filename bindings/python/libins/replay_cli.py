@@ -12,6 +12,7 @@ import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
+from libins import replay_live
 from libins.errors import UsageError
 from libins.schema import Document
 from libins.whole_file import write
@@ -40,8 +41,9 @@ def options(parser: argparse.ArgumentParser) -> None:
         parser.add_argument(f"--{name}", type=Path, metavar=f"F.{name}", help=text)
     parser.add_argument("--dds", action="store_true", help="publish the solution as NavSolution, paced by --speed")
     parser.add_argument(
-        "--speed", type=float, default=1.0, metavar="X", help="with --dds: recorded seconds a second (1)"
+        "--speed", type=float, default=1.0, metavar="X", help="with --dds and --live: recorded seconds a second (1)"
     )
+    replay_live.options(parser)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -49,6 +51,8 @@ def run(args: argparse.Namespace) -> int:
     from libins import replay, replay_config, replay_files, replay_score, scenario
 
     overrides = dict(map(scenario.setting, args.set))
+    if args.live is not None:
+        return replay_live.run(args, replay_live.load(args.config, overrides))
     config = replay_config.load(args.config, overrides | ({"smooth": True} if args.smooth else {}))
     places = {name: _place(args, config, name) for name in FILES}
     if places["html"] is not None:

@@ -11,13 +11,13 @@
 #define FREEDOM     4            ///< degrees of freedom of the Student's t of a fix
 #define WEIGHT_MIN  INS_C(1e-4)  ///< of a heading, over the best one's
 #define HEADING_VAR INS_C(0.09)  ///< below it all headings are one [rad^2]
-#define SPEED_VAR   INS_C(100.0) ///< at the start [(m/s)^2]: the odometer tells it at once
+#define SPEED_VAR   INS_C(100.0) ///< before the first distance [(m/s)^2]
 #define STILL_VAR   INS_C(1e-4)  ///< of the speed when it stands [(m/s)^2]
 #define PERIOD_MIN  INS_C(1e-3)  ///< between fixes [s]
 
 void ins_gps_dr_config_default(ins_gps_dr_config_t* cfg)
 {
-    static const ins_gps_dr_config_t car = {{4, INS_C(1e-9), INS_C(1e-8), INS_C(2.5e-5), INS_C(1e-5), 0, 0},
+    static const ins_gps_dr_config_t car = {{0, INS_C(1e-9), INS_C(1e-8), INS_C(2.5e-5), INS_C(1e-5), 0, 0},
                                             {4, INS_KALMAN_GATE2_99, 4, INS_SWITCH_BACK_GOOD},
                                             INS_C(5e-3),
                                             INS_C(0.02),
@@ -76,7 +76,6 @@ static void share(ins_gps_dr_t* self, const ins_real x[N], const ins_real P[N * 
     {
         ins_unicycle_t* const local = &self->local[i];
         local->cfg = self->cfg.vehicle;
-        local->cfg.q_speed *= SHARE;
         local->cfg.q_bias *= SHARE;
         local->cfg.q_scale *= SHARE;
         local->cfg.r_rate *= SHARE;
@@ -138,30 +137,36 @@ static void mixture(const ins_gps_dr_t* self, ins_real x[N], ins_real P[N * N])
 
 ins_status_t ins_gps_dr_step(ins_gps_dr_t* self, ins_real dt, ins_real yaw_rate, ins_real distance)
 {
-    ins_status_t status = INS_OK;
     if (!(dt > 0) || !(ins_fabs(yaw_rate * dt) < 1000) || !(ins_fabs(distance) <= INS_REAL_MAX))
     {
         return INS_E_RANGE;
     }
     self->since_fix += dt;
-    self->stood = ins_fabs(distance) > 0 ? 0 : self->stood + dt;
+    const int moves = ins_fabs(distance) > 0;
+    self->stood = moves ? 0 : self->stood + dt;
+    self->turned = moves ? 0 : self->turned + yaw_rate * dt;
     const int still = self->cfg.still_after > 0 && self->stood >= self->cfg.still_after;
+    const ins_real mean = still ? self->turned / self->stood : 0;
     for (unsigned i = 0; i < self->count; i++)
     {
         ins_unicycle_t* const local = &self->local[i];
-        const ins_status_t odometer = ins_unicycle_odometer(local, dt, distance, 0);
-        status = i == 0 ? odometer : status;
         if (still)
         {
-            (void)ins_unicycle_still(local, yaw_rate, self->paired ? SHARE * STILL_VAR : STILL_VAR);
+            (void)ins_unicycle_still(local, mean, self->paired ? SHARE * STILL_VAR : STILL_VAR);
         }
-        (void)ins_unicycle_predict(local, dt, yaw_rate); // its limit is beyond the one above by what a bias can be
+        (void)ins_unicycle_travel(local, dt, yaw_rate,
+                                  distance); // its limit is beyond the one above by what a bias can be
+    }
+    if (still)
+    {
+        self->stood = 0;
+        self->turned = 0;
     }
     if (self->since_fix > self->cfg.fix_max_age)
     {
         (void)ins_switch_epoch(&self->choice, 0, 0, 0, 0);
     }
-    return status;
+    return INS_OK;
 }
 
 /// Where a fix is now: `age` ago the vehicle was where it says.
@@ -326,7 +331,7 @@ ins_status_t ins_gps_dr_fix(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
     }
     self->nis = 0;
     ins_status_t status = self->count > 0 ? judge(self, fix) : INS_OK;
-    if (status != INS_OK)
+    if (status < 0)
     {
         self->gross++;
         self->gross_run = (uint_least8_t)(self->gross_run + (self->gross_run < 255));
@@ -368,8 +373,7 @@ ins_status_t ins_gps_dr_fix(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
 int ins_gps_dr_source(const ins_gps_dr_t* self)
 {
     const int paired = self->choice.mode == INS_SWITCH_GPS ? INS_GPS_DR_GPS : INS_GPS_DR_DR;
-    const int started = self->paired ? paired : INS_GPS_DR_ALIGN;
-    return self->count > 0 ? started : INS_GPS_DR_NONE;
+    return self->count == 0 ? INS_GPS_DR_NONE : self->paired ? paired : INS_GPS_DR_ALIGN;
 }
 
 ins_status_t ins_gps_dr_state(const ins_gps_dr_t* self, ins_real x[N], ins_real P[N * N])

@@ -84,6 +84,47 @@ ins_status_t ins_unicycle_predict(ins_unicycle_t* self, ins_real dt, ins_real ya
     return INS_OK;
 }
 
+ins_status_t ins_unicycle_travel(ins_unicycle_t* self, ins_real dt, ins_real yaw_rate, ins_real distance)
+{
+    ins_real* const x = self->x;
+    const ins_real k = x[INS_UNICYCLE_SCALE];
+    const ins_real turn = (yaw_rate - x[INS_UNICYCLE_BIAS]) * dt;
+    const ins_real d = distance / k;
+    ins_real work[INS_KALMAN_WORK(N)];
+    ins_real s;
+    ins_real c;
+    if (!(dt > 0) || !(ins_fabs(turn) <= ANGLE_MAX) || !(k > 0) || !(ins_fabs(d) <= INS_REAL_MAX))
+    {
+        return INS_E_RANGE;
+    }
+    ins_elementary_turn(x[INS_UNICYCLE_HEADING] + turn / 2, &s, &c);
+    // Columns of bias and scale are those of the noise of gyro and odometer, but for sign and factor: P' = Phi P Phi' + Q.
+    const ins_real g[N] = {d * c * dt / 2, -d * s * dt / 2, dt, 0, 0, 0}; // of the yaw rate
+    const ins_real o[N] = {s / k, c / k, 0, 1 / (k * dt), 0, 0};          // of the distance
+    ins_real Phi[N * N] = {0};
+    ins_real Q[N * N];
+    for (unsigned i = 0; i < N; i++)
+    {
+        Phi[(N + 1) * i] = i == INS_UNICYCLE_SPEED ? 0 : 1; // the speed before does not matter
+        Phi[N * i + INS_UNICYCLE_BIAS] -= g[i];
+        Phi[N * i + INS_UNICYCLE_SCALE] -= d * o[i];
+        for (unsigned j = 0; j < N; j++)
+        {
+            Q[N * i + j] = g[i] * g[j] * self->cfg.r_rate + o[i] * o[j] * self->cfg.r_distance;
+        }
+    }
+    Phi[INS_UNICYCLE_HEADING] = d * c;
+    Phi[N + INS_UNICYCLE_HEADING] = -d * s;
+    Q[(N + 1) * INS_UNICYCLE_BIAS] += self->cfg.q_bias * dt;
+    Q[(N + 1) * INS_UNICYCLE_SCALE] += self->cfg.q_scale * dt;
+    ins_kalman_predict(N, 0, self->P, Phi, Q, work);
+    x[INS_UNICYCLE_EAST] += d * s;
+    x[INS_UNICYCLE_NORTH] += d * c;
+    x[INS_UNICYCLE_HEADING] = ins_elementary_wrap(x[INS_UNICYCLE_HEADING] + turn);
+    x[INS_UNICYCLE_SPEED] = d / dt;
+    return INS_OK;
+}
+
 static ins_status_t update(ins_unicycle_t* self, const ins_real h[N], ins_innovation_t* z)
 {
     ins_real work[2 * N];

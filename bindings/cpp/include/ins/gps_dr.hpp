@@ -64,6 +64,10 @@ class Unicycle
         return detail::status(ins_unicycle_init(&raw, &cfg, x.data(), var.data()));
     }
     Status predict(Real dt, Real yaw_rate) { return detail::status(ins_unicycle_predict(&raw, dt, yaw_rate)); }
+    Status travel(Real dt, Real yaw_rate, Real distance)
+    {
+        return detail::status(ins_unicycle_travel(&raw, dt, yaw_rate, distance));
+    }
     Status odometer(Real dt, Real distance, Real* nis = nullptr)
     {
         return detail::status(ins_unicycle_odometer(&raw, dt, distance, nis));

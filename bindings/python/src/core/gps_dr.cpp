@@ -43,15 +43,14 @@ ins_gps_dr_fix_t fix_of(double east, double north, double sigma, unsigned sats, 
     return f;
 }
 
-void construct(ins_gps_dr_t* self, double q_speed, double q_bias, double q_scale, double r_rate, double r_distance,
-               double gate_odometer, double hdop_max, double gate, unsigned sats, unsigned back, double sigma_bias,
-               double sigma_scale, double tau_fix, double gate_gross, double sigma_velocity, double course_min,
-               double still_after, double fix_max_age, unsigned restart)
+void construct(ins_gps_dr_t* self, double q_bias, double q_scale, double r_rate, double r_distance, double hdop_max,
+               double gate, unsigned sats, unsigned back, double sigma_bias, double sigma_scale, double tau_fix,
+               double gate_gross, double sigma_velocity, double course_min, double still_after, double fix_max_age,
+               unsigned restart)
 {
     new (self) ins_gps_dr_t();
     const ins_gps_dr_config_t cfg = {
-        {as_real(q_speed), as_real(q_bias), as_real(q_scale), as_real(r_rate), as_real(r_distance),
-         as_real(gate_odometer), 0},
+        {0, as_real(q_bias), as_real(q_scale), as_real(r_rate), as_real(r_distance), 0, 0},
         {as_real(hdop_max), as_real(gate), static_cast<uint_least8_t>(sats), static_cast<uint_least8_t>(back)},
         as_real(sigma_bias),
         as_real(sigma_scale),
@@ -75,10 +74,9 @@ void bind_ours(nb::module_& m)
     nb::class_<ins_gps_dr_t> c(m, "GpsDr",
                                "GPS and dead reckoning of a vehicle, decentralised: it finds its heading, shares "
                                "information, switches. Units: m, s, rad.");
-    c.def("__init__", construct, nb::kw_only(), "q_speed"_a = number(CAR.vehicle.q_speed),
-          "q_bias"_a = number(CAR.vehicle.q_bias), "q_scale"_a = number(CAR.vehicle.q_scale),
-          "r_rate"_a = number(CAR.vehicle.r_rate), "r_distance"_a = number(CAR.vehicle.r_distance),
-          "gate_odometer"_a = number(CAR.vehicle.gate), "hdop_max"_a = number(CAR.choice.hdop_max),
+    c.def("__init__", construct, nb::kw_only(), "q_bias"_a = number(CAR.vehicle.q_bias),
+          "q_scale"_a = number(CAR.vehicle.q_scale), "r_rate"_a = number(CAR.vehicle.r_rate),
+          "r_distance"_a = number(CAR.vehicle.r_distance), "hdop_max"_a = number(CAR.choice.hdop_max),
           "gate"_a = number(CAR.choice.gate), "sats"_a = static_cast<unsigned>(CAR.choice.sats),
           "back"_a = static_cast<unsigned>(CAR.choice.back), "sigma_bias"_a = number(CAR.sigma_bias),
           "sigma_scale"_a = number(CAR.sigma_scale), "tau_fix"_a = number(CAR.tau_fix),

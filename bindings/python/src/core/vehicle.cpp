@@ -220,6 +220,15 @@ void bind_unicycle(nb::module_& m)
         },
         "dt"_a, "yaw_rate"_a, "Move by dt [s] with the gyro's yaw rate [rad/s].");
     unicycle.def(
+        "travel",
+        [](ins_unicycle_t& self, double dt, double yaw_rate, double distance)
+        {
+            Call("Unicycle.travel", "dt > 0, |yaw_rate dt| <= 1000, finite distance, scale > 0")
+                .check(ins_unicycle_travel(&self, as_real(dt), as_real(yaw_rate), as_real(distance)));
+        },
+        "dt"_a, "yaw_rate"_a, "distance"_a,
+        "Move by dt [s] with the gyro's yaw rate [rad/s] and the odometer's distance [m].");
+    unicycle.def(
         "odometer",
         [](ins_unicycle_t& self, double dt, double distance)
         {

@@ -901,6 +901,12 @@ extern "C" {
     pub fn ins_unicycle_predict(self_: *mut ins_unicycle_t, dt: ins_real, yaw_rate: ins_real) -> ins_status_t;
 }
 extern "C" {
+    #[doc = "Both sensors as inputs: move by dt [s] along the distance [m] over the odometer's scale; the speed is theirs after it. So the odometer"]
+    #[doc = "says nothing about its own scale, as it does through ins_unicycle_odometer() where counts are coarse (docs/gps_dr.md)."]
+    #[doc = "\\return INS_E_RANGE, nothing changed: as ins_unicycle_predict(), the distance is not a number, or the scale is not positive."]
+    pub fn ins_unicycle_travel(self_: *mut ins_unicycle_t, dt: ins_real, yaw_rate: ins_real, distance: ins_real) -> ins_status_t;
+}
+extern "C" {
     #[doc = "Distance counted in the dt before. \\param[out] nis  may be 0. \\return as ins_kalman_update()."]
     pub fn ins_unicycle_odometer(self_: *mut ins_unicycle_t, dt: ins_real, distance: ins_real, nis: *mut ins_real) -> ins_status_t;
 }
@@ -947,7 +953,7 @@ pub type _bindgen_ty_7 = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
 pub struct ins_gps_dr_config_t {
-    #[doc = "noise and the odometer's gate; gate_gps is not used"]
+    #[doc = "noise; q_speed and the gates are not used"]
     pub vehicle: ins_unicycle_config_t,
     #[doc = "its gate is for the nis of a fix with the deviation it states"]
     pub choice: ins_switch_config_t,
@@ -963,7 +969,7 @@ pub struct ins_gps_dr_config_t {
     pub sigma_velocity: ins_real,
     #[doc = "speed from which the course is used [m/s]"]
     pub course_min: ins_real,
-    #[doc = "no distance for so long: it stands [s]; 0: never"]
+    #[doc = "standing so long, the mean yaw rate counts as one sample of the bias [s]; 0: never"]
     pub still_after: ins_real,
     #[doc = "without a fix for so long: dead reckoning [s]"]
     pub fix_max_age: ins_real,
@@ -1008,8 +1014,10 @@ pub struct ins_gps_dr_t {
     pub choice: ins_switch_t,
     #[doc = "[s]"]
     pub since_fix: ins_real,
-    #[doc = "no distance for this long [s]"]
+    #[doc = "no distance for this long, or since the last sample of the bias [s]"]
     pub stood: ins_real,
+    #[doc = "in that time, as the gyro says [rad]"]
+    pub turned: ins_real,
     #[doc = "of the last fix"]
     pub nis: ins_real,
     #[doc = "gross fixes in a row"]
@@ -1041,8 +1049,7 @@ extern "C" {
 }
 extern "C" {
     #[doc = "dt [s] have passed. \\param[in] yaw_rate  clockwise, their mean [rad/s]. \\param[in] distance  counted in them [m]."]
-    #[doc = "\\return INS_OK; INS_E_GATE: the distance was refused and not used; INS_E_RANGE: dt is not positive, or one is not a number or beyond"]
-    #[doc = "1000 rad: nothing changed."]
+    #[doc = "\\return INS_OK; INS_E_RANGE: dt is not positive, or one is not a number or beyond 1000 rad: nothing changed."]
     pub fn ins_gps_dr_step(self_: *mut ins_gps_dr_t, dt: ins_real, yaw_rate: ins_real, distance: ins_real) -> ins_status_t;
 }
 extern "C" {

@@ -3,6 +3,10 @@
 ///
 ///     ins_gps_dr_t n;
 ///     ins_gps_dr_config_t cfg;
+///     ins_gps_dr_fix_t fix = {0};
+///     ins_real x[6];
+///     ins_real P[36];
+///     ins_real yaw_rate = 0, distance = 0;
 ///     ins_gps_dr_config_default(&cfg);
 ///     ins_gps_dr_init(&n, &cfg);
 ///     ins_gps_dr_step(&n, INS_C(0.1), yaw_rate, distance);   // each 100 ms
@@ -39,7 +43,7 @@ enum
 
 typedef struct ins_gps_dr_config_t
 {
-    ins_unicycle_config_t vehicle; ///< noise and the odometer's gate; gate_gps is not used
+    ins_unicycle_config_t vehicle; ///< noise; q_speed and the gates are not used
     ins_switch_config_t choice;    ///< its gate is for the nis of a fix with the deviation it states
     ins_real sigma_bias;           ///< gyro bias at the start [rad/s]
     ins_real sigma_scale;          ///< odometer scale at the start
@@ -47,9 +51,9 @@ typedef struct ins_gps_dr_config_t
     ins_real gate_gross;           ///< nis above which a fix is not used at all; 0: none
     ins_real sigma_velocity;       ///< of the receiver's velocity: its course has sigma_velocity/speed [m/s]
     ins_real course_min;           ///< speed from which the course is used [m/s]
-    ins_real still_after;          ///< no distance for so long: it stands [s]; 0: never
-    ins_real fix_max_age;          ///< without a fix for so long: dead reckoning [s]
-    uint_least8_t restart;         ///< gross fixes in a row after which it starts again; 0: never
+    ins_real still_after;  ///< standing so long, the mean yaw rate counts as one sample of the bias [s]; 0: never
+    ins_real fix_max_age;  ///< without a fix for so long: dead reckoning [s]
+    uint_least8_t restart; ///< gross fixes in a row after which it starts again; 0: never
 } ins_gps_dr_config_t;
 
 typedef struct ins_gps_dr_fix_t
@@ -74,7 +78,8 @@ typedef struct ins_gps_dr_t
     uint_least8_t paired;
     ins_switch_t choice;
     ins_real since_fix;      ///< [s]
-    ins_real stood;          ///< no distance for this long [s]
+    ins_real stood;          ///< no distance for this long, or since the last sample of the bias [s]
+    ins_real turned;         ///< in that time, as the gyro says [rad]
     ins_real nis;            ///< of the last fix
     uint_least8_t gross_run; ///< gross fixes in a row
     uint_least32_t used;     ///< fixes
@@ -88,8 +93,7 @@ INS_API void ins_gps_dr_config_default(ins_gps_dr_config_t* cfg);
 /// \return INS_E_RANGE: as ins_unicycle_init() and ins_switch_init() with theirs; one of the others is negative or not a number.
 INS_API ins_status_t ins_gps_dr_init(ins_gps_dr_t* self, const ins_gps_dr_config_t* cfg);
 /// dt [s] have passed. \param[in] yaw_rate  clockwise, their mean [rad/s]. \param[in] distance  counted in them [m].
-/// \return INS_OK; INS_E_GATE: the distance was refused and not used; INS_E_RANGE: dt is not positive, or one is not a number or beyond
-/// 1000 rad: nothing changed.
+/// \return INS_OK; INS_E_RANGE: dt is not positive, or one is not a number or beyond 1000 rad: nothing changed.
 INS_API ins_status_t ins_gps_dr_step(ins_gps_dr_t* self, ins_real dt, ins_real yaw_rate, ins_real distance);
 /// \return INS_OK; INS_E_GATE: gross, or its course was: that is not used; INS_E_RANGE: not a number, or sigma is not positive.
 INS_API ins_status_t ins_gps_dr_fix(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix);

@@ -3,6 +3,8 @@
 ///
 ///     ins_gps_dr_paper_t n;
 ///     ins_gps_dr_paper_config_t cfg;
+///     ins_gps_dr_fix_t fix = {0};
+///     ins_real yaw_rate = 0, distance = 0;
 ///     ins_gps_dr_paper_config_default(&cfg, INS_GPS_DR_PAPER_CORRECTED);
 ///     ins_gps_dr_paper_init(&n, &cfg);
 ///     ins_gps_dr_paper_step(&n, yaw_rate, distance);   // each cfg.dr.dt: 100 ms

@@ -50,6 +50,10 @@ INS_API ins_status_t ins_unicycle_init(ins_unicycle_t* self, const ins_unicycle_
                                        const ins_real var[6]);
 /// Move by dt [s] with the gyro's yaw rate [rad/s]. \return INS_E_RANGE, nothing changed: dt not positive, or |yaw_rate dt| > 1000.
 INS_API ins_status_t ins_unicycle_predict(ins_unicycle_t* self, ins_real dt, ins_real yaw_rate);
+/// Both sensors as inputs: move by dt [s] along the distance [m] over the odometer's scale; the speed is theirs after it. So the odometer
+/// says nothing about its own scale, as it does through ins_unicycle_odometer() where counts are coarse (docs/gps_dr.md).
+/// \return INS_E_RANGE, nothing changed: as ins_unicycle_predict(), the distance is not a number, or the scale is not positive.
+INS_API ins_status_t ins_unicycle_travel(ins_unicycle_t* self, ins_real dt, ins_real yaw_rate, ins_real distance);
 /// Distance counted in the dt before. \param[out] nis  may be 0. \return as ins_kalman_update().
 INS_API ins_status_t ins_unicycle_odometer(ins_unicycle_t* self, ins_real dt, ins_real distance, ins_real* nis);
 /// Known to stand still: the gyro reads its bias, the speed is 0. \param[in] r_speed  how sure [(m/s)^2]. \return as above.
