@@ -337,6 +337,7 @@ TEST(gps_ins, a_clock_that_steps_back_is_followed)
     }
     EXPECT_EQ(r.nav.count.imu_clock, 1u);
     EXPECT_EQ(r.nav.count.imu_time, 7u);
+    EXPECT_EQ(r.nav.count.imu_gaps, 1u) << "the seven";
     EXPECT_LT(length(r.errors(60), 6), 2);
 }
 

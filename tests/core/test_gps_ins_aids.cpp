@@ -260,4 +260,68 @@ TEST(gps_ins_aids, nees_with_everything_at_once_is_chi_squared)
         EXPECT_LE(sum, bounds[1]);
     }
 }
+
+TEST(gps_ins_aids, one_error_alone_is_found_by_each_measurement_that_sees_it)
+{
+    // Nothing else is uncertain and nothing has noise: a row of the wrong sign or size leaves the error or makes it larger.
+    using Measure = std::function<ins_status_t(Ride&, double)>;
+    const auto gnss = [](double late, bool position)
+    {
+        return [=](Ride& r, double t)
+        {
+            r.sigma_p = 0;
+            r.sigma_v = 0;
+            ins_gnss_fix_t f = r.fix(t - late);
+            std::fill(position ? f.sigma_p : f.sigma_v, (position ? f.sigma_p : f.sigma_v) + 3, INS_C(1e-4));
+            return ins_gps_ins_gnss(&r.nav, &f);
+        };
+    };
+    const Measure odometer = [](Ride& r, double t)
+    { return ins_gps_ins_odometer(&r.nav, static_cast<ins_real>(truth_speed(t)), INS_C(1e-3)); };
+    const Measure nhc = [](Ride& r, double) { return ins_gps_ins_nhc(&r.nav); };
+    const struct
+    {
+        const char* what;
+        size_t state;
+        double sigma;
+        Measure measure;
+    } cases[] = {{"heading by the arm", 2, 0.02, gnss(0, true)},
+                 {"heading by the turning arm", 2, 0.02, gnss(0, false)},
+                 {"velocity by a late position", 4, 0.3, gnss(0.4, true)},
+                 {"velocity by a late velocity", 3, 0.3, gnss(0.4, false)},
+                 {"tilt by a late velocity", 0, 0.01, gnss(0.4, false)},
+                 {"gyro bias by the arm's velocity", 11, 2e-3, gnss(0, false)},
+                 {"heading by the wheels", 2, 0.02, nhc},
+                 {"pitch by the wheels", 1, 0.01, nhc},
+                 {"speed by the odometer", 3, 0.3, odometer}};
+    for (const auto& c : cases)
+    {
+        Ride r(track(), 11);
+        r.cfg.antenna_b[0] = INS_C(8.);
+        r.cfg.antenna_b[1] = INS_C(-5.);
+        r.cfg.antenna_b[2] = INS_C(-3.);
+        r.cfg.gate = r.cfg.gate_position = r.cfg.gate_velocity = 0;
+        r.cfg.stuck = 0;
+        r.cfg.nhc = INS_C(1e-3);
+        r.cfg.sensors.arw = r.cfg.sensors.vrw = INS_C(1e-7);
+        r.cfg.sensors.bg_sigma = r.cfg.sensors.ba_sigma = INS_C(1e-9);
+        Errors sigma = {};
+        sigma[c.state] = c.sigma;
+        r.start(50, sigma);
+        if (c.state == 11)
+        {
+            r.nav.gyro_bias[2] = static_cast<ins_real>(c.sigma);
+        }
+        for (size_t k = at(50); k < at(50.5); k++)
+        {
+            ASSERT_EQ(r.step(static_cast<double>(k + 1) / HZ, exact()[k]), INS_OK);
+        }
+        const double before = r.errors(50.5)[c.state];
+        EXPECT_EQ(c.measure(r, 50.5), INS_OK) << c.what;
+        const double after = r.errors(50.5)[c.state];
+        std::printf("[ figure   ] %s: %+.5f before, %+.5f after\n", c.what, before, after);
+        EXPECT_GT(std::fabs(before), 0.1 * c.sigma) << c.what;
+        EXPECT_LT(std::fabs(after), 0.08 * std::fabs(before)) << c.what;
+    }
+}
 } // namespace
