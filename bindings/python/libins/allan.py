@@ -190,7 +190,7 @@ def _intervals(columns: Array, squares: Array, curve: Curve, variance: Array, of
         low[i] = min(free[i] - Z95 * spread(i, squares), squares[i])
         for _ in range(STEPS):
             there = np.where(np.arange(len(squares)) == i, high[i], squares)
-            high[i] = max(free[i] + Z95 * spread(i, there), squares[i])
+            high[i] = max(max(free[i], 0.0) + Z95 * spread(i, there), squares[i])
     return np.maximum(low, 0), np.maximum(high, 0)
 
 
