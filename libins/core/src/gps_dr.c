@@ -5,8 +5,8 @@
 #include "elementary_internal.h"
 #include "ins/ins_math.h"
 
-#define N           6
-#define PI          INS_C(3.14159265358979323846)
+#define STATES      6
+#define HALF_CIRCLE INS_C(3.14159265358979323846)
 #define SHARE       2            ///< each of the two local filters has 1/2 of the information
 #define FREEDOM     4            ///< degrees of freedom of the Student's t of a fix
 #define WEIGHT_MIN  INS_C(1e-4)  ///< of a heading, over the best one's
@@ -34,7 +34,7 @@ void ins_gps_dr_config_default(ins_gps_dr_config_t* cfg)
 ins_status_t ins_gps_dr_init(ins_gps_dr_t* self, const ins_gps_dr_config_t* cfg)
 {
     static const ins_gps_dr_t zero; // all 0
-    static const ins_real nothing[N] = {0};
+    static const ins_real nothing[STATES] = {0};
     ins_unicycle_t vehicle;
     ins_switch_t choice;
     if (!(cfg->sigma_bias >= 0) || !(cfg->sigma_scale >= 0) || !(cfg->tau_fix >= 0) || !(cfg->gate_gross >= 0) ||
@@ -53,24 +53,24 @@ ins_status_t ins_gps_dr_init(ins_gps_dr_t* self, const ins_gps_dr_config_t* cfg)
 /// Everything that was known about the vehicle is that it is at the fix.
 static void start(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
 {
-    const ins_real spread = PI / INS_GPS_DR_HEADINGS;
+    const ins_real spread = HALF_CIRCLE / INS_GPS_DR_HEADINGS;
     const ins_gps_dr_config_t* const c = &self->cfg;
     const ins_real r = fix->sigma * fix->sigma;
-    const ins_real var[N] = {
+    const ins_real var[STATES] = {
         r, r, spread * spread, SPEED_VAR, c->sigma_bias * c->sigma_bias, c->sigma_scale * c->sigma_scale};
     self->count = INS_GPS_DR_HEADINGS;
     self->paired = 0;
     self->gross_run = 0;
     for (unsigned i = 0; i < self->count; i++)
     {
-        const ins_real x[N] = {fix->east, fix->north, 2 * spread * (ins_real)i, 0, 0, 1};
+        const ins_real x[STATES] = {fix->east, fix->north, 2 * spread * (ins_real)i, 0, 0, 1};
         (void)ins_unicycle_init(&self->local[i], &c->vehicle, x, var); // figures that have been checked
         self->weight[i] = 1;
     }
 }
 
 /// The two local filters: the same state, half of the information each.
-static void share(ins_gps_dr_t* self, const ins_real x[N], const ins_real P[N * N])
+static void share(ins_gps_dr_t* self, const ins_real x[STATES], const ins_real P[STATES * STATES])
 {
     for (unsigned i = 0; i < SHARE; i++)
     {
@@ -80,26 +80,26 @@ static void share(ins_gps_dr_t* self, const ins_real x[N], const ins_real P[N * 
         local->cfg.q_scale *= SHARE;
         local->cfg.r_rate *= SHARE;
         local->cfg.r_distance *= SHARE;
-        for (unsigned k = 0; k < N; k++)
+        for (unsigned k = 0; k < STATES; k++)
         {
             local->x[k] = x[k];
         }
-        (void)ins_fusion_share(N, P, (ins_real)1 / SHARE, local->P);
+        (void)ins_fusion_share(STATES, P, (ins_real)1 / SHARE, local->P);
     }
     self->count = SHARE;
     self->paired = 1;
 }
 
 /// Mean and covariance of the headings' sum. Headings are counted from the first one's.
-static void mixture(const ins_gps_dr_t* self, ins_real x[N], ins_real P[N * N])
+static void mixture(const ins_gps_dr_t* self, ins_real x[STATES], ins_real P[STATES * STATES])
 {
     const ins_real* const first = self->local[0].x;
     ins_real sum = 0;
-    for (unsigned k = 0; k < N; k++)
+    for (unsigned k = 0; k < STATES; k++)
     {
         x[k] = 0;
     }
-    for (unsigned k = 0; k < N * N; k++)
+    for (unsigned k = 0; k < STATES * STATES; k++)
     {
         P[k] = 0;
     }
@@ -107,28 +107,29 @@ static void mixture(const ins_gps_dr_t* self, ins_real x[N], ins_real P[N * N])
     {
         for (unsigned i = 0; i < self->count; i++)
         {
-            ins_real d[N]; // from the first one; in the second pass from the mean
-            for (unsigned k = 0; k < N; k++)
+            ins_real d[STATES]; // from the first one; in the second pass from the mean
+            for (unsigned k = 0; k < STATES; k++)
             {
                 d[k] = self->local[i].x[k] - first[k];
             }
             d[INS_UNICYCLE_HEADING] = ins_elementary_wrap(d[INS_UNICYCLE_HEADING]);
-            for (unsigned k = 0; pass == 0 && k < N; k++)
+            for (unsigned k = 0; pass == 0 && k < STATES; k++)
             {
                 x[k] += self->weight[i] * d[k];
             }
-            for (unsigned k = 0; pass == 1 && k < N * N; k++)
+            for (unsigned k = 0; pass == 1 && k < STATES * STATES; k++)
             {
-                P[k] += self->weight[i] / sum * (self->local[i].P[k] + (d[k / N] - x[k / N]) * (d[k % N] - x[k % N]));
+                P[k] += self->weight[i] / sum *
+                        (self->local[i].P[k] + (d[k / STATES] - x[k / STATES]) * (d[k % STATES] - x[k % STATES]));
             }
             sum += pass == 0 ? self->weight[i] : 0;
         }
-        for (unsigned k = 0; pass == 0 && k < N; k++)
+        for (unsigned k = 0; pass == 0 && k < STATES; k++)
         {
             x[k] /= sum;
         }
     }
-    for (unsigned k = 0; k < N; k++)
+    for (unsigned k = 0; k < STATES; k++)
     {
         x[k] += first[k];
     }
@@ -182,7 +183,7 @@ static void bring(const ins_unicycle_t* local, const ins_gps_dr_fix_t* fix, ins_
 
 /// \param[in] fresh  how much of a fresh one the fix is. \return its likelihood but for a factor that all local filters share; 0: it
 /// cannot be used.
-static ins_real take(ins_unicycle_t* local, const ins_gps_dr_fix_t* fix, ins_real fresh)
+static ins_real take_fix(ins_unicycle_t* local, const ins_gps_dr_fix_t* fix, ins_real fresh)
 {
     ins_real en[2];
     ins_real nis;
@@ -203,13 +204,13 @@ static ins_real take(ins_unicycle_t* local, const ins_gps_dr_fix_t* fix, ins_rea
 /// The fix weighs the headings; those that are out are dropped, and all are one when they agree.
 static void align(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix, ins_real fresh)
 {
-    ins_real x[N];
-    ins_real P[N * N];
+    ins_real x[STATES];
+    ins_real P[STATES * STATES];
     ins_real best = 0;
     unsigned kept = 0;
     for (unsigned i = 0; i < self->count; i++)
     {
-        self->weight[i] *= take(&self->local[i], fix, fresh);
+        self->weight[i] *= take_fix(&self->local[i], fix, fresh);
         best = self->weight[i] > best ? self->weight[i] : best;
     }
     for (unsigned i = 0; best > 0 && i < self->count; i++)
@@ -225,7 +226,7 @@ static void align(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix, ins_real fres
     if (kept > 0)
     {
         mixture(self, x, P);
-        if (P[(N + 1) * INS_UNICYCLE_HEADING] < HEADING_VAR)
+        if (P[(STATES + 1) * INS_UNICYCLE_HEADING] < HEADING_VAR)
         {
             share(self, x, P);
         }
@@ -235,28 +236,28 @@ static void align(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix, ins_real fres
 /// One state of the two, and back. Where rounding has left too little, the reckoning one stays.
 static void fuse(ins_gps_dr_t* self)
 {
-    ins_real info[N * N];
-    ins_real y[N];
-    ins_real x[N];
-    ins_real work[N * N];
-    ins_real P[N * N];
+    ins_real info[STATES * STATES];
+    ins_real y[STATES];
+    ins_real x[STATES];
+    ins_real work[STATES * STATES];
+    ins_real P[STATES * STATES];
     const ins_real* const first = self->local[0].x;
-    ins_fusion_clear(N, info, y);
+    ins_fusion_clear(STATES, info, y);
     for (unsigned i = 0; i < SHARE; i++)
     {
-        for (unsigned k = 0; k < N; k++)
+        for (unsigned k = 0; k < STATES; k++)
         {
             x[k] = self->local[i].x[k] - first[k]; // differences: the heading has no seam, and float keeps them
         }
         x[INS_UNICYCLE_HEADING] = ins_elementary_wrap(x[INS_UNICYCLE_HEADING]);
-        if (ins_fusion_add(N, info, y, x, self->local[i].P, work) != INS_OK)
+        if (ins_fusion_add(STATES, info, y, x, self->local[i].P, work) != INS_OK)
         {
             return;
         }
     }
-    if (ins_fusion_solve(N, info, y, x, P) == INS_OK)
+    if (ins_fusion_solve(STATES, info, y, x, P) == INS_OK)
     {
-        for (unsigned k = 0; k < N; k++)
+        for (unsigned k = 0; k < STATES; k++)
         {
             x[k] += first[k];
         }
@@ -269,8 +270,8 @@ static void fuse(ins_gps_dr_t* self)
 static ins_status_t steer(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
 {
     const ins_gps_dr_config_t* const c = &self->cfg;
-    ins_real x[N];
-    ins_real P[N * N];
+    ins_real x[STATES];
+    ins_real P[STATES * STATES];
     if (!fix->has_course || !(fix->speed >= c->course_min) || !(fix->speed > 0) || !(c->sigma_velocity > 0) ||
         self->count == 0)
     {
@@ -282,13 +283,13 @@ static ins_status_t steer(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
         return ins_unicycle_course(&self->local[1], fix->course, sigma * sigma, INS_KALMAN_GATE_999, 0);
     }
     mixture(self, x, P);
-    for (unsigned k = 0; k < N; k++) // any heading of the sum is as good
+    for (unsigned k = 0; k < STATES; k++) // any heading of the sum is as good
     {
-        P[N * INS_UNICYCLE_HEADING + k] = 0;
-        P[N * k + INS_UNICYCLE_HEADING] = 0;
+        P[STATES * INS_UNICYCLE_HEADING + k] = 0;
+        P[STATES * k + INS_UNICYCLE_HEADING] = 0;
     }
     x[INS_UNICYCLE_HEADING] = ins_elementary_wrap(fix->course);
-    P[(N + 1) * INS_UNICYCLE_HEADING] = sigma * sigma;
+    P[(STATES + 1) * INS_UNICYCLE_HEADING] = sigma * sigma;
     share(self, x, P);
     return INS_OK;
 }
@@ -301,7 +302,7 @@ static int usable(const ins_gps_dr_fix_t* fix)
 }
 
 /// nis of a fix with the deviation that it states, in the filter that takes it. \return INS_E_GATE: gross.
-static ins_status_t judge(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
+static ins_status_t judge_fix(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
 {
     unsigned best = self->paired;
     ins_real en[2];
@@ -330,7 +331,7 @@ ins_status_t ins_gps_dr_fix(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
         return INS_E_RANGE;
     }
     self->nis = 0;
-    ins_status_t status = self->count > 0 ? judge(self, fix) : INS_OK;
+    ins_status_t status = self->count > 0 ? judge_fix(self, fix) : INS_OK;
     if (status < 0)
     {
         self->gross++;
@@ -356,7 +357,7 @@ ins_status_t ins_gps_dr_fix(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
     }
     else if (self->paired)
     {
-        (void)take(&self->local[1], fix, fresh);
+        (void)take_fix(&self->local[1], fix, fresh);
     }
     else
     {
@@ -376,9 +377,9 @@ int ins_gps_dr_source(const ins_gps_dr_t* self)
     return self->count == 0 ? INS_GPS_DR_NONE : self->paired ? paired : INS_GPS_DR_ALIGN;
 }
 
-ins_status_t ins_gps_dr_state(const ins_gps_dr_t* self, ins_real x[N], ins_real P[N * N])
+ins_status_t ins_gps_dr_state(const ins_gps_dr_t* self, ins_real x[STATES], ins_real P[STATES * STATES])
 {
-    ins_real mixed[N * N];
+    ins_real mixed[STATES * STATES];
     if (self->count == 0)
     {
         return INS_E_STATE;
@@ -388,11 +389,11 @@ ins_status_t ins_gps_dr_state(const ins_gps_dr_t* self, ins_real x[N], ins_real 
         mixture(self, x, P ? P : mixed);
         return INS_OK;
     }
-    for (unsigned k = 0; k < N; k++)
+    for (unsigned k = 0; k < STATES; k++)
     {
         x[k] = self->local[0].x[k];
     }
-    for (unsigned k = 0; P && k < N * N; k++)
+    for (unsigned k = 0; P && k < STATES * STATES; k++)
     {
         P[k] = self->local[0].P[k] / SHARE;
     }

@@ -57,7 +57,7 @@ ins_status_t ins_gps_dr_paper_step(ins_gps_dr_paper_t* self, ins_real yaw_rate, 
 }
 
 /// Dead reckoning goes on from what the fixes say.
-static void correct(ins_gps_dr_paper_t* self)
+static void correct_dr(ins_gps_dr_paper_t* self)
 {
     for (unsigned i = 0; i < 36; i++)
     {
@@ -104,7 +104,7 @@ ins_status_t ins_gps_dr_paper_fix(ins_gps_dr_paper_t* self, const ins_gps_dr_fix
     self->refused += status != INS_OK;
     if (ins_switch_epoch(&self->choice, status == INS_OK, fix->sats, fix->hdop, self->nis) == INS_SWITCH_GPS || first)
     {
-        correct(self);
+        correct_dr(self);
     }
     return status;
 }

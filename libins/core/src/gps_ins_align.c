@@ -15,10 +15,10 @@
 #define GRAVITY    INS_C(9.8)  ///< where only its size matters [m/s^2]
 #define INTERVAL   INS_C(0.95) ///< between two fixes whose difference is used [s]
 #define LATE_MAX   INS_C(0.1)  ///< [s]
-#define TURN       INS_C(6.28318530717958648)
+#define FULL_TURN  INS_C(6.28318530717958648)
 #define REST_GATE  16 ///< largest square of a velocity at rest over its variance, 99.9 %
 #define NEWTON     4  ///< steps; it doubles its digits from a guess of some degrees
-#define NS_TO_S    INS_C(1e-9)
+#define TO_S       INS_C(1e-9)
 #define ACCEL_LATE INS_C(2.) ///< of the vehicle while a fix is late: counted as error [m/s^2]
 
 static const ins_real nose[3] = {1, 0, 0};
@@ -113,7 +113,7 @@ ins_status_t ins_gps_ins_align_step(ins_gps_ins_align_t* self, int64_t t_ns, ins
     {
         return INS_E_RANGE;
     }
-    if (self->dt > 0 && (ins_real)(t_ns - self->t_ns) * NS_TO_S > INS_C(1.5) * dt)
+    if (self->dt > 0 && (ins_real)(t_ns - self->t_ns) * TO_S > INS_C(1.5) * dt)
     {
         self->has_fix = 0; // a gap
         ins_still_restart(&self->still);
@@ -139,7 +139,7 @@ ins_status_t ins_gps_ins_align_step(ins_gps_ins_align_t* self, int64_t t_ns, ins
 
 ins_status_t ins_gps_ins_align_heading(ins_gps_ins_align_t* self, ins_real heading, ins_real sigma)
 {
-    if (!(ins_fabs(heading) <= TURN) || !(sigma > 0 && sigma <= TURN))
+    if (!(ins_fabs(heading) <= FULL_TURN) || !(sigma > 0 && sigma <= FULL_TURN))
     {
         return INS_E_RANGE;
     }
@@ -152,7 +152,7 @@ ins_status_t ins_gps_ins_align_heading(ins_gps_ins_align_t* self, ins_real headi
 }
 
 /// N = M C'
-static void product(const ins_real M[9], const ins_real q[4], ins_real N[9])
+static void product_of(const ins_real M[9], const ins_real q[4], ins_real N[9])
 {
     ins_real C[9];
     ins_quat_to_dcm(q, C);
@@ -163,7 +163,7 @@ static void product(const ins_real M[9], const ins_real q[4], ins_real N[9])
 }
 
 /// H x = g for a symmetric H, by Cramer's rule. \return 0 if H is singular.
-static int solve(const ins_real H[9], const ins_real g[3], ins_real x[3])
+static int solve_step(const ins_real H[9], const ins_real g[3], ins_real x[3])
 {
     ins_real c[3];
     ins_real d[3];
@@ -194,7 +194,7 @@ static void deviations(const ins_gps_ins_align_t* self, ins_real* level, ins_rea
         ins_real axis[3] = {0, 0, 0};
         ins_real column[3];
         axis[i] = 1;
-        P[i] = solve(H, axis, column) && column[i] > 0 ? column[i] : INS_REAL_MAX;
+        P[i] = solve_step(H, axis, column) && column[i] > 0 ? column[i] : INS_REAL_MAX;
     }
     const ins_real tilt = INS_C(0.5) * (P[0] + P[1]);
     *level = ins_sqrt(tilt * (1 + self->bent));
@@ -211,7 +211,7 @@ static int attitude(const ins_gps_ins_align_t* self, ins_real q[4])
         return 0;
     }
     // Heading: the turn about the vertical that brings the horizontal parts together, by its half angle.
-    product(self->M, q, N);
+    product_of(self->M, q, N);
     const ins_real c = N[0] + N[4];
     const ins_real s = N[3] - N[1];
     const ins_real r = ins_sqrt(c * c + s * s);
@@ -224,7 +224,7 @@ static int attitude(const ins_gps_ins_align_t* self, ins_real q[4])
     ins_quat_mul(yaw, q, q);
     for (unsigned step = 0; step < NEWTON; step++)
     {
-        product(self->M, q, N);
+        product_of(self->M, q, N);
         const ins_real g[3] = {N[7] - N[5], N[2] - N[6], N[3] - N[1]};
         const ins_real trace = N[0] + N[4] + N[8];
         ins_real H[9];
@@ -233,7 +233,7 @@ static int attitude(const ins_gps_ins_align_t* self, ins_real q[4])
         {
             H[i] = (i % 4 == 0 ? trace : 0) - INS_C(0.5) * (N[i] + N[3 * (i % 3) + i / 3]);
         }
-        if (!solve(H, g, phi) || !(ins_vec_dot(phi, phi) < 1) || ins_quat_from_rotvec(phi, dq) != INS_OK)
+        if (!solve_step(H, g, phi) || !(ins_vec_dot(phi, phi) < 1) || ins_quat_from_rotvec(phi, dq) != INS_OK)
         {
             return 0;
         }
@@ -256,8 +256,8 @@ static int is_fix(const ins_gnss_fix_t* fix)
 }
 
 /// The antenna's fix, and what is known beside it, for the IMU of now.
-static ins_status_t begin(const ins_gps_ins_align_t* self, const ins_gnss_fix_t* fix, ins_real late,
-                          ins_gps_ins_start_t* start)
+static ins_status_t begin_with(const ins_gps_ins_align_t* self, const ins_gnss_fix_t* fix, ins_real late,
+                               ins_gps_ins_start_t* start)
 {
     static const ins_gps_ins_start_t zero; // all 0
     ins_strapdown_t at;
@@ -298,7 +298,7 @@ static ins_status_t begin(const ins_gps_ins_align_t* self, const ins_gnss_fix_t*
 ins_status_t ins_gps_ins_align_gnss(ins_gps_ins_align_t* self, const ins_gnss_fix_t* fix, ins_gps_ins_start_t* start)
 {
     const int64_t late_ns = self->t_ns - fix->t_ns;
-    const ins_real late = (ins_real)late_ns * NS_TO_S;
+    const ins_real late = (ins_real)late_ns * TO_S;
     if (!(self->dt > 0) || !is_fix(fix) || !(late <= LATE_MAX && late >= -2 * self->dt))
     {
         return INS_E_RANGE;
@@ -350,5 +350,5 @@ ins_status_t ins_gps_ins_align_gnss(ins_gps_ins_align_t* self, const ins_gnss_fi
     start->sigma[0] = level;
     start->sigma[1] = level;
     start->sigma[2] = heading;
-    return begin(self, fix, late > 0 ? late : 0, start);
+    return begin_with(self, fix, late > 0 ? late : 0, start);
 }

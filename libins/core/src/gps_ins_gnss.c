@@ -121,7 +121,8 @@ static void velocity_row(const ins_gps_ins_t* self, const epoch_t* e, unsigned i
 
 /// Judges and uses the components that are known. \param[in] first  0 for position, 3 for velocity. \return 1 if they were used or
 /// there were none.
-static int use(ins_gps_ins_t* self, const epoch_t* e, unsigned first, ins_real gate, ins_real* joint, unsigned* used)
+static int use_part(ins_gps_ins_t* self, const epoch_t* e, unsigned first, ins_real gate, ins_real* joint,
+                    unsigned* used)
 {
     const ins_real* sigma = first == 0 ? e->fix->sigma_p : e->fix->sigma_v;
     gps_ins_rows_t rows = {.n = 0};
@@ -229,8 +230,8 @@ ins_status_t ins_gps_ins_gnss(ins_gps_ins_t* self, const ins_gnss_fix_t* fix)
     }
     unsigned used = 0;
     const ins_gps_ins_config_t* c = &self->cfg;
-    const int fits = use(self, &e, 0, c->gate_position, &self->check.nis_position, &used);
-    const int moves = use(self, &e, 3, c->gate_velocity, &self->check.nis_velocity, &used);
+    const int fits = use_part(self, &e, 0, c->gate_position, &self->check.nis_position, &used);
+    const int moves = use_part(self, &e, 3, c->gate_velocity, &self->check.nis_velocity, &used);
     self->count.fix_position += !fits;
     self->count.fix_velocity += !moves;
     self->count.fixes += used > 0;

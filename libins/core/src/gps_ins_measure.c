@@ -34,8 +34,8 @@ static void find(const ins_real h[INS_KF15_N], columns_t* columns)
 }
 
 /// h_i P h_j'
-static ins_real product(const ins_gps_ins_t* self, const gps_ins_rows_t* rows, const columns_t* columns, unsigned i,
-                        unsigned j)
+static ins_real row_product(const ins_gps_ins_t* self, const gps_ins_rows_t* rows, const columns_t* columns, unsigned i,
+                            unsigned j)
 {
     ins_real sum = 0;
     for (unsigned k = 0; k < columns[i].n; k++)
@@ -52,7 +52,7 @@ static ins_real product(const ins_gps_ins_t* self, const gps_ins_rows_t* rows, c
     return sum;
 }
 
-static void judge(const ins_gps_ins_t* self, const columns_t* columns, gps_ins_rows_t* rows)
+static void judge_rows(const ins_gps_ins_t* self, const columns_t* columns, gps_ins_rows_t* rows)
 {
     ins_real l[3][3];
     ins_real d[3];
@@ -61,10 +61,10 @@ static void judge(const ins_gps_ins_t* self, const columns_t* columns, gps_ins_r
     for (unsigned i = 0; i < rows->n; i++)
     {
         e[i] = rows->v[i];
-        d[i] = product(self, rows, columns, i, i) + rows->r[i];
+        d[i] = row_product(self, rows, columns, i, i) + rows->r[i];
         for (unsigned j = 0; j < i; j++)
         {
-            ins_real s = product(self, rows, columns, i, j);
+            ins_real s = row_product(self, rows, columns, i, j);
             for (unsigned k = 0; k < j; k++)
             {
                 s -= l[i][k] * l[j][k] * d[k];
@@ -79,7 +79,7 @@ static void judge(const ins_gps_ins_t* self, const columns_t* columns, gps_ins_r
 }
 
 /// Truth = estimate + x, for fixes that come late too.
-static void correct(ins_gps_ins_t* self, const ins_real x[INS_KF15_N])
+static void correct_all(ins_gps_ins_t* self, const ins_real x[INS_KF15_N])
 {
     ins_strapdown_t* nav = &self->nav;
     ins_real dq[4];
@@ -107,8 +107,8 @@ static void correct(ins_gps_ins_t* self, const ins_real x[INS_KF15_N])
 }
 
 /// One scalar. \return its gain, or 0 if it was refused.
-static const ins_real* update(ins_gps_ins_t* self, const ins_real h[INS_KF15_N], const columns_t* columns,
-                              ins_innovation_t* z)
+static const ins_real* update_by(ins_gps_ins_t* self, const ins_real h[INS_KF15_N], const columns_t* columns,
+                                 ins_innovation_t* z)
 {
     const unsigned index = columns->at[0];
     const int is_unit = columns->n == 1 && h[index] == 1;
@@ -135,7 +135,7 @@ ins_status_t ins_gps_ins_measure(ins_gps_ins_t* self, gps_ins_rows_t* rows, ins_
     {
         find(rows->h[i], &columns[i]);
     }
-    judge(self, columns, rows);
+    judge_rows(self, columns, rows);
     for (unsigned i = 0; i < rows->n; i++)
     {
         positive &= rows->r[i] > 0;
@@ -155,13 +155,13 @@ ins_status_t ins_gps_ins_measure(ins_gps_ins_t* self, gps_ins_rows_t* rows, ins_
         {
             z.v -= rows->h[i][columns[i].at[k]] * x[columns[i].at[k]];
         }
-        const ins_real* K = update(self, rows->h[i], &columns[i], &z);
+        const ins_real* K = update_by(self, rows->h[i], &columns[i], &z);
         for (unsigned k = 0; K && k < INS_KF15_N; k++)
         {
             x[k] += K[k] * z.v;
         }
     }
-    correct(self, x);
+    correct_all(self, x);
     if (self->ud)
     {
         ins_kf15_ud_covariance(gps_ins_ud(self), self->kf.P);

@@ -8,13 +8,13 @@
 #include "ins/vec.h"
 #include "strapdown_internal.h"
 
-#define N   INS_GYRO_FREE_N
-#define PHI INS_GYRO_FREE_PHI
-#define V   INS_GYRO_FREE_V
-#define P   INS_GYRO_FREE_P
-#define W   INS_GYRO_FREE_W
-#define BD  INS_GYRO_FREE_BD
-#define BF  INS_GYRO_FREE_BF
+#define GF_N   INS_GYRO_FREE_N
+#define GF_PHI INS_GYRO_FREE_PHI
+#define GF_V   INS_GYRO_FREE_V
+#define GF_P   INS_GYRO_FREE_P
+#define GF_W   INS_GYRO_FREE_W
+#define GF_BD  INS_GYRO_FREE_BD
+#define GF_BF  INS_GYRO_FREE_BF
 
 static int is_deviation(ins_real x)
 {
@@ -49,8 +49,8 @@ ins_status_t ins_gyro_free_init(ins_gyro_free_t* self, const ins_gyro_free_confi
     static const ins_gyro_free_t zero;
     ins_sixacc_t sixacc;
     ins_strapdown_t strapdown;
-    ins_real start[N * N] = {0};
-    ins_real work[N * N];
+    ins_real start[GF_N * GF_N] = {0};
+    ins_real work[GF_N * GF_N];
     int good = cfg->noise > 0 && is_deviation(cfg->noise) && is_deviation(cfg->bias) && is_deviation(cfg->bias_walk) &&
                is_deviation(cfg->velocity) && is_deviation(cfg->position) && is_deviation(cfg->rate) &&
                is_deviation(cfg->gate);
@@ -70,19 +70,19 @@ ins_status_t ins_gyro_free_init(ins_gyro_free_t* self, const ins_gyro_free_confi
     set_geometry(self, accels);
     for (int i = 0; i < 3; i++)
     {
-        start[(N + 1) * (PHI + i)] = cfg->attitude[i] * cfg->attitude[i];
-        start[(N + 1) * (V + i)] = cfg->velocity * cfg->velocity;
-        start[(N + 1) * (P + i)] = cfg->position * cfg->position;
-        start[(N + 1) * (W + i)] = cfg->rate * cfg->rate;
+        start[(GF_N + 1) * (GF_PHI + i)] = cfg->attitude[i] * cfg->attitude[i];
+        start[(GF_N + 1) * (GF_V + i)] = cfg->velocity * cfg->velocity;
+        start[(GF_N + 1) * (GF_P + i)] = cfg->position * cfg->position;
+        start[(GF_N + 1) * (GF_W + i)] = cfg->rate * cfg->rate;
     }
     for (int i = 0; i < 6; i++)
     {
         for (int k = 0; k < 6; k++)
         {
-            start[N * (BD + i) + BD + k] = cfg->bias * cfg->bias * self->noise[i][k];
+            start[GF_N * (GF_BD + i) + GF_BD + k] = cfg->bias * cfg->bias * self->noise[i][k];
         }
     }
-    return ins_ud_factor(N, start, self->UD, work);
+    return ins_ud_factor(GF_N, start, self->UD, work);
 }
 
 /// Derivative of the centripetal terms: rows wd, f; columns w.
@@ -100,7 +100,8 @@ static void centripetal(const ins_sixacc_t* s, ins_real J[6][3])
 
 /// Phi = I + F T + (F T)^2 / 2, of the second order what leads from one kind of error to another.
 /// \param[in] C  [9] T C_nb. \param[in] v_b  [3] of the increment: f T.
-static void transition(const ins_gyro_free_t* self, const ins_real C[9], const ins_real v_b[3], ins_real Phi[N * N])
+static void transition(const ins_gyro_free_t* self, const ins_real C[9], const ins_real v_b[3],
+                       ins_real Phi[GF_N * GF_N])
 {
     const ins_real T = self->sixacc.period_s;
     const ins_real half = INS_C(0.5) * T;
@@ -108,32 +109,32 @@ static void transition(const ins_gyro_free_t* self, const ins_real C[9], const i
     ins_real u[3];
     centripetal(&self->sixacc, J);
     ins_quat_rotate(self->strapdown.sculling.q_nb, v_b, u);
-    for (int i = 0; i < N; i++)
+    for (int i = 0; i < GF_N; i++)
     {
-        Phi[(N + 1) * i] = 1;
+        Phi[(GF_N + 1) * i] = 1;
     }
     for (int i = 0; i < 3; i++)
     {
         const int j = (i + 1) % 3;
         const int k = (i + 2) % 3;
-        Phi[N * (V + i) + PHI + j] = u[k]; // phi x f T
-        Phi[N * (V + i) + PHI + k] = -u[j];
-        Phi[N * (P + i) + PHI + j] = half * u[k];
-        Phi[N * (P + i) + PHI + k] = -half * u[j];
-        Phi[N * (P + i) + V + i] = T;
-        Phi[N * (W + i) + BD + i] = -T;
+        Phi[GF_N * (GF_V + i) + GF_PHI + j] = u[k]; // phi x f T
+        Phi[GF_N * (GF_V + i) + GF_PHI + k] = -u[j];
+        Phi[GF_N * (GF_P + i) + GF_PHI + j] = half * u[k];
+        Phi[GF_N * (GF_P + i) + GF_PHI + k] = -half * u[j];
+        Phi[GF_N * (GF_P + i) + GF_V + i] = T;
+        Phi[GF_N * (GF_W + i) + GF_BD + i] = -T;
         for (int m = 0; m < 3; m++)
         {
             const ins_real c = C[3 * i + m];
-            Phi[N * (PHI + i) + W + m] = c;
-            Phi[N * (PHI + i) + BD + m] = -half * c;
-            Phi[N * (V + i) + BF + m] = -c;
-            Phi[N * (P + i) + BF + m] = -half * c;
-            Phi[N * (W + i) + W + m] += T * J[i][m];
-            Phi[N * (V + i) + W + m] = INS_C(0.5) * (C[3 * j + m] * u[k] - C[3 * k + m] * u[j]);
+            Phi[GF_N * (GF_PHI + i) + GF_W + m] = c;
+            Phi[GF_N * (GF_PHI + i) + GF_BD + m] = -half * c;
+            Phi[GF_N * (GF_V + i) + GF_BF + m] = -c;
+            Phi[GF_N * (GF_P + i) + GF_BF + m] = -half * c;
+            Phi[GF_N * (GF_W + i) + GF_W + m] += T * J[i][m];
+            Phi[GF_N * (GF_V + i) + GF_W + m] = INS_C(0.5) * (C[3 * j + m] * u[k] - C[3 * k + m] * u[j]);
             for (int n = 0; n < 3; n++)
             {
-                Phi[N * (V + i) + W + m] += C[3 * i + n] * J[3 + n][m];
+                Phi[GF_N * (GF_V + i) + GF_W + m] += C[3 * i + n] * J[3 + n][m];
             }
         }
     }
@@ -141,24 +142,24 @@ static void transition(const ins_gyro_free_t* self, const ins_real C[9], const i
 
 /// White noise of the readings, held over the step: into rate and velocity, and half a step of it into attitude and position; walk of
 /// the biases. \param[in] C  [9] T C_nb.
-static void noise_of(const ins_gyro_free_t* self, const ins_real C[9], ins_real Q[N * N])
+static void noise_of(const ins_gyro_free_t* self, const ins_real C[9], ins_real Q[GF_N * GF_N])
 {
     const ins_real T = self->sixacc.period_s;
     const ins_real half = INS_C(0.5) * T;
     const ins_real white = self->cfg.noise * self->cfg.noise;
     const ins_real walk = self->cfg.bias_walk * self->cfg.bias_walk * T;
-    ins_real G[BD][6] = {{0}};
+    ins_real G[GF_BD][6] = {{0}};
     for (int i = 0; i < 3; i++)
     {
-        G[W + i][i] = T;
+        G[GF_W + i][i] = T;
         for (int m = 0; m < 3; m++)
         {
-            G[PHI + i][m] = half * C[3 * i + m];
-            G[V + i][3 + m] = C[3 * i + m];
-            G[P + i][3 + m] = half * C[3 * i + m];
+            G[GF_PHI + i][m] = half * C[3 * i + m];
+            G[GF_V + i][3 + m] = C[3 * i + m];
+            G[GF_P + i][3 + m] = half * C[3 * i + m];
         }
     }
-    for (int i = 0; i < BD; i++)
+    for (int i = 0; i < GF_BD; i++)
     {
         ins_real row[6] = {0};
         for (int a = 0; a < 6; a++)
@@ -168,11 +169,11 @@ static void noise_of(const ins_gyro_free_t* self, const ins_real C[9], ins_real 
                 row[b] += white * G[i][a] * self->noise[a][b];
             }
         }
-        for (int k = 0; k < BD; k++)
+        for (int k = 0; k < GF_BD; k++)
         {
             for (int b = 0; b < 6; b++)
             {
-                Q[N * i + k] += row[b] * G[k][b];
+                Q[GF_N * i + k] += row[b] * G[k][b];
             }
         }
     }
@@ -180,7 +181,7 @@ static void noise_of(const ins_gyro_free_t* self, const ins_real C[9], ins_real 
     {
         for (int k = 0; k < 6; k++)
         {
-            Q[N * (BD + i) + BD + k] = walk * self->noise[i][k];
+            Q[GF_N * (GF_BD + i) + GF_BD + k] = walk * self->noise[i][k];
         }
     }
 }
@@ -189,10 +190,10 @@ ins_status_t ins_gyro_free_step(ins_gyro_free_t* self, const ins_real* readings)
 {
     ins_increment_t increment;
     ins_real C[9];
-    ins_real Phi[N * N] = {0};
-    ins_real Q[N * N] = {0};
-    ins_real Q_ud[INS_UD_SIZE(N)];
-    ins_real work[INS_UD_WORK(N)];
+    ins_real Phi[GF_N * GF_N] = {0};
+    ins_real Q[GF_N * GF_N] = {0};
+    ins_real Q_ud[INS_UD_SIZE(GF_N)];
+    ins_real work[INS_UD_WORK(GF_N)];
     const ins_sixacc_t before = self->sixacc;
     const ins_status_t status = ins_sixacc_step(&self->sixacc, readings, &increment);
     if (status != INS_OK)
@@ -211,32 +212,32 @@ ins_status_t ins_gyro_free_step(ins_gyro_free_t* self, const ins_real* readings)
     }
     transition(self, C, increment.v_b, Phi);
     noise_of(self, C, Q);
-    (void)ins_ud_factor(N, Q, Q_ud, work); // a sum of squares
-    ins_ud_predict(N, 0, self->UD, Phi, Q_ud, work);
+    (void)ins_ud_factor(GF_N, Q, Q_ud, work); // a sum of squares
+    ins_ud_predict(GF_N, 0, self->UD, Phi, Q_ud, work);
     return INS_OK;
 }
 
-static void correct(ins_gyro_free_t* self, const ins_real x[N])
+static void correct_by(ins_gyro_free_t* self, const ins_real x[GF_N])
 {
     ins_sixacc_t* s = &self->sixacc;
     ins_strapdown_correct(&self->strapdown, x);
-    ins_vec_add_scaled(s->w_ib_b, 1, x + W);
-    ins_vec_add_scaled(s->wd_ib_b, -1, x + BD);
+    ins_vec_add_scaled(s->w_ib_b, 1, x + GF_W);
+    ins_vec_add_scaled(s->wd_ib_b, -1, x + GF_BD);
     for (int i = 0; i < 6; i++)
     {
-        s->linear[i] -= x[BD + i];
+        s->linear[i] -= x[GF_BD + i];
         for (unsigned j = 0; j < s->count; j++)
         {
-            s->bias[j] += self->forward[j][i] * x[BD + i];
+            s->bias[j] += self->forward[j][i] * x[GF_BD + i];
         }
     }
 }
 
 /// Three scalars v = H x + noise, one after the other, and the correction. \param[in] H  [3][N].
-static ins_status_t measure(ins_gyro_free_t* self, ins_real H[3][N], const ins_real v[3], const ins_real sigma[3])
+static ins_status_t measure(ins_gyro_free_t* self, ins_real H[3][GF_N], const ins_real v[3], const ins_real sigma[3])
 {
-    ins_real x[N] = {0};
-    ins_real work[3 * N];
+    ins_real x[GF_N] = {0};
+    ins_real work[3 * GF_N];
     ins_status_t all = INS_OK;
     for (int i = 0; i < 3; i++)
     {
@@ -248,18 +249,18 @@ static ins_status_t measure(ins_gyro_free_t* self, ins_real H[3][N], const ins_r
     for (int i = 0; i < 3; i++)
     {
         ins_innovation_t z = {v[i], sigma[i] * sigma[i], self->cfg.gate, 0};
-        for (int k = 0; k < N; k++)
+        for (int k = 0; k < GF_N; k++)
         {
             z.v -= H[i][k] * x[k];
         }
-        const ins_status_t status = ins_ud_update(N, x, self->UD, H[i], &z, work);
+        const ins_status_t status = ins_ud_update(GF_N, x, self->UD, H[i], &z, work);
         if (status != INS_OK)
         {
             self->refused++;
             all = status;
         }
     }
-    correct(self, x);
+    correct_by(self, x);
     return all;
 }
 
@@ -270,7 +271,7 @@ ins_status_t ins_gyro_free_position(ins_gyro_free_t* self, const ins_position_t*
     ins_real l_n[3];
     ins_real unused[3];
     ins_real v[3];
-    ins_real H[3][N] = {{0}};
+    ins_real H[3][GF_N] = {{0}};
     ins_quat_rotate(self->strapdown.sculling.q_nb, l_b, l_n);
     ins_strapdown_point(&self->strapdown, l_b, self->sixacc.w_ib_b, unused, &antenna);
     ins_position_difference(&antenna, fix, v);
@@ -278,9 +279,9 @@ ins_status_t ins_gyro_free_position(ins_gyro_free_t* self, const ins_position_t*
     {
         const int j = (i + 1) % 3;
         const int k = (i + 2) % 3;
-        H[i][P + i] = 1;
-        H[i][PHI + j] = l_n[k]; // phi x l
-        H[i][PHI + k] = -l_n[j];
+        H[i][GF_P + i] = 1;
+        H[i][GF_PHI + j] = l_n[k]; // phi x l
+        H[i][GF_PHI + k] = -l_n[j];
     }
     return measure(self, H, v, sigma);
 }
@@ -288,11 +289,11 @@ ins_status_t ins_gyro_free_position(ins_gyro_free_t* self, const ins_position_t*
 ins_status_t ins_gyro_free_velocity(ins_gyro_free_t* self, const ins_real v_n[3], const ins_real sigma[3])
 {
     ins_real v[3];
-    ins_real H[3][N] = {{0}};
+    ins_real H[3][GF_N] = {{0}};
     for (int i = 0; i < 3; i++)
     {
         v[i] = v_n[i] - self->strapdown.v_n[i];
-        H[i][V + i] = 1;
+        H[i][GF_V + i] = 1;
     }
     return measure(self, H, v, sigma);
 }
@@ -306,25 +307,25 @@ ins_status_t ins_gyro_free_still(ins_gyro_free_t* self, ins_real sigma_v, ins_re
     ins_real v[3];
     ins_real q_bn[4];
     ins_real w_ie_n[3];
-    ins_real H[3][N] = {{0}};
+    ins_real H[3][GF_N] = {{0}};
     ins_earth_rate(s->sin_lat, s->cos_lat, w_ie_n);
     ins_quat_conj(s->sculling.q_nb, q_bn);
     ins_quat_rotate(q_bn, w_ie_n, v);
     for (int i = 0; i < 3; i++)
     {
         v[i] -= self->sixacc.w_ib_b[i];
-        H[i][W + i] = 1;
+        H[i][GF_W + i] = 1;
     }
     const ins_status_t status = measure(self, H, v, each_w);
     return status == INS_OK ? ins_gyro_free_velocity(self, zero, each_v) : status;
 }
 
-void ins_gyro_free_sigma(const ins_gyro_free_t* self, ins_real sigma[N])
+void ins_gyro_free_sigma(const ins_gyro_free_t* self, ins_real sigma[GF_N])
 {
-    ins_real full[N * N];
-    ins_ud_covariance(N, self->UD, full);
-    for (int i = 0; i < N; i++)
+    ins_real full[GF_N * GF_N];
+    ins_ud_covariance(GF_N, self->UD, full);
+    for (int i = 0; i < GF_N; i++)
     {
-        sigma[i] = ins_sqrt(full[(N + 1) * i]);
+        sigma[i] = ins_sqrt(full[(GF_N + 1) * i]);
     }
 }
