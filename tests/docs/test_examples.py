@@ -32,7 +32,8 @@ OWN_NAMES = {
     "ins/gyro_free.h": "static ins_gyro_free_config_t config; static ins_accel_t accels[6];"
     "static ins_position_t start, fix_position; static ins_real sigma_m[3], l_b[3];",
     "ins/gps_ins_align.h": "static ins_gps_ins_config_t cfg; static ins_gps_ins_start_t start;"
-    "static ins_gnss_fix_t fix; static ins_gps_ins_align_config_t how; static ins_gps_ins_t n; static int64_t t_ns; static int new_fix;",
+    "static ins_gnss_fix_t fix; static ins_gps_ins_align_config_t how; static ins_gps_ins_t n;"
+    "static int64_t t_ns; static int new_fix;",
     "ins/kf15.h": "static ins_strapdown_t s; static ins_real sigma[15]; static ins_kf15_sensors_t sensors;",
     "ins/q31.h": "int32_t q_nb0[4] = {0}, dtheta_b[3] = {0};",
     "ins_nav/six.h": "static ins_nav_six_t six; static ins_nav_six_config_t config; static ins_nav_six_state_t state;"
