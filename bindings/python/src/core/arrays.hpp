@@ -191,6 +191,7 @@ void bind_sensors(nb::module_& m);
 void bind_kalman(nb::module_& m);
 void bind_kf15(nb::module_& m);
 void bind_gps_ins(nb::module_& m);
+void bind_gyro_free(nb::module_& m);
 void bind_vehicle(nb::module_& m);
 void bind_gps_dr(nb::module_& m);
 void bind_serial(nb::module_& m);

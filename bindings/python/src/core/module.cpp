@@ -124,6 +124,7 @@ NB_MODULE(LIBINS_MODULE, m)
     bind_kalman(m);
     bind_kf15(m);
     bind_gps_ins(m);
+    bind_gyro_free(m);
     bind_vehicle(m);
     bind_gps_dr(m);
     bind_serial(m);
