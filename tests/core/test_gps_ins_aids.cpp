@@ -50,6 +50,64 @@ double truth_speed(double t)
     return norm({s.v_n[0], s.v_n[1], s.v_n[2]});
 }
 
+TEST(gps_ins_aids, a_gap_adds_the_turn_that_it_may_hide)
+{
+    const double gap = 0.5;
+    std::array<double, 2> variance = {};
+    for (const size_t hides : {0, 1})
+    {
+        Ride r(track(), 11);
+        r.cfg.unseen_rate = hides ? INS_C(0.1) : 0;
+        r.cfg.unseen_accel = 0;
+        r.start(0, START);
+        for (size_t k = 0; k < at(1); k++)
+        {
+            ASSERT_EQ(r.step(static_cast<double>(k + 1) / HZ, exact()[k]), INS_OK);
+        }
+        ASSERT_EQ(r.step(1 + gap + 1.0 / HZ, exact()[at(1 + gap)]), INS_OK);
+        variance[hides] = static_cast<double>(r.nav.kf.P[(INS_KF15_ROW + 1) * (INS_KF15_PHI + 2)]);
+    }
+    EXPECT_NEAR(std::sqrt(variance[1] - variance[0]), 0.1 * gap, 0.02 * gap);
+}
+
+TEST(gps_ins_aids, the_joint_nis_of_a_position_knows_that_its_axes_are_correlated)
+{
+    Ride r(track(), 12);
+    r.start(0, START);
+    ASSERT_EQ(r.step(1.0 / HZ, exact()[0]), INS_OK);
+    const size_t n = INS_KF15_P;
+    const double correlation[3] = {0.9, -0.5, -0.3}; // north east, north down, east down
+    const auto put = [&](size_t i, size_t j, double x) {
+        r.nav.kf.P[INS_KF15_ROW * (n + i) + n + j] = r.nav.kf.P[INS_KF15_ROW * (n + j) + n + i] =
+            static_cast<ins_real>(x);
+    };
+    for (size_t i = 0; i < 3; i++)
+    {
+        put(i, i, 4);
+    }
+    put(0, 1, 4 * correlation[0]);
+    put(0, 2, 4 * correlation[1]);
+    put(1, 2, 4 * correlation[2]);
+    const ins_gnss_fix_t f = r.fix(1.0 / HZ);
+    ASSERT_EQ(ins_gps_ins_gnss(&r.nav, &f), INS_OK);
+    // S = P + I, v' S^-1 v by Cramer's rule.
+    const double a = 5, b = 4 * correlation[0], c = 4 * correlation[1], d = 4 * correlation[2];
+    const double det = a * (a * a - d * d) - b * (b * a - d * c) + c * (b * d - a * c);
+    const double inverse[3][3] = {{(a * a - d * d) / det, (c * d - b * a) / det, (b * d - a * c) / det},
+                                  {(c * d - b * a) / det, (a * a - c * c) / det, (b * c - a * d) / det},
+                                  {(b * d - a * c) / det, (b * c - a * d) / det, (a * a - b * b) / det}};
+    double nis = 0;
+    for (size_t i = 0; i < 3; i++)
+    {
+        for (size_t j = 0; j < 3; j++)
+        {
+            nis += static_cast<double>(r.nav.check.innovation[i]) * inverse[i][j] *
+                   static_cast<double>(r.nav.check.innovation[j]);
+        }
+    }
+    EXPECT_NEAR(static_cast<double>(r.nav.check.nis_position), nis, 1e-3 * nis);
+}
+
 TEST(gps_ins_aids, rest_is_found_and_holds_the_drift_without_a_fix)
 {
     for (const bool detector : {false, true})

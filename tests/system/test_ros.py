@@ -99,7 +99,7 @@ def rotation(euler: list[float]) -> np.ndarray:
 
 
 def turned(phi: np.ndarray) -> np.ndarray:
-    """exp(-[phi x]), what an attitude error phi makes of an attitude."""
+    """exp(-[phi x]), what an attitude error phi, truth less estimate, makes of a true attitude."""
     angle = np.linalg.norm(phi)
     k = np.array([[0, -phi[2], phi[1]], [phi[2], 0, -phi[0]], [-phi[1], phi[0], 0]]) / max(angle, 1e-30)
     return np.eye(3) - math.sin(angle) * k + (1 - math.cos(angle)) * k @ k
@@ -197,7 +197,7 @@ def test_odometry_is_the_pose_in_the_first_place_and_the_twist_in_the_body(excha
 
         def pose(e, to_odom=to_odom, c_nb=c_nb, attitude=attitude):
             moved = to_odom @ turned(e[:3]) @ c_nb @ FRD_TO_FLU
-            return np.concatenate([to_odom @ e[6:], small(moved @ attitude.T)])
+            return np.concatenate([-to_odom @ e[6:], small(moved @ attitude.T)])
 
         np.testing.assert_allclose(odometry.pose.covariance.reshape(6, 6), numeric(pose, p), atol=1e-8)
         lat = line["llh"][0]
@@ -207,7 +207,7 @@ def test_odometry_is_the_pose_in_the_first_place_and_the_twist_in_the_body(excha
         np.testing.assert_allclose(vector(twist.angular), FRD_TO_FLU @ (line["w_ib_b"] - earth), atol=1e-15)
 
         def velocity(e, c_nb=c_nb, v_n=v_n):
-            return FRD_TO_FLU @ (turned(e[:3]) @ c_nb).T @ (v_n + e[3:6])
+            return FRD_TO_FLU @ (turned(e[:3]) @ c_nb).T @ (v_n - e[3:6])
 
         got = odometry.twist.covariance.reshape(6, 6)
         np.testing.assert_allclose(got[:3, :3], numeric(velocity, p), atol=1e-8)

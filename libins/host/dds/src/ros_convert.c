@@ -96,18 +96,18 @@ static void covariances(const ins_navigation_t* from, const double C_on[9], cons
     double lever[9];
     double J[6 * INS_NAVIGATION_P] = {0};
     put(J, 0, POSITION, 1, C_on);
-    put(J, 3, PHI, -1, C_on); // estimated = (I - [phi x]) true: it is turned by -phi
+    put(J, 3, PHI, 1, C_on);
     propagate(6, J, from->P, out->pose_P);
     memset(J, 0, sizeof J);
     product(C_fn, cross, lever);
     put(J, 0, VELOCITY, 1, C_fn);
-    put(J, 0, PHI, -1, lever);
+    put(J, 0, PHI, 1, lever); // C_bn true v true - C_bn v = C_bn (dv + v x phi)
     propagate(6, J, from->P, out->twist_P);
     memset(J, 0, sizeof J);
     put(J, 0, POSITION, 1, ned_to_enu);
     propagate(3, J, from->P, out->place_P);
     memset(J, 0, sizeof J);
-    put(J, 0, PHI, -1, ned_to_enu);
+    put(J, 0, PHI, 1, ned_to_enu);
     propagate(3, J, from->P, out->rotation_P);
 }
 

@@ -34,7 +34,7 @@ typedef struct ins_navigation_t
     double f_b[3];    ///< specific force [m/s^2]
     double v_n[3];    ///< over ground [m/s]
     double llh[3];    ///< latitude, longitude [rad], height above WGS-84 [m]
-    /// Row-major, symmetric [rad, m/s, m], of errors estimated - true. Attitude error phi in n: C_nb estimated = (I - [phi x]) C_nb true.
+    /// Row-major, symmetric [rad, m/s, m], of errors truth less estimate, as those of ins/kf15.h: C_nb true = (I + [phi x]) C_nb.
     double P[INS_NAVIGATION_P * INS_NAVIGATION_P];
 } ins_navigation_t;
 
