@@ -1,8 +1,7 @@
 /// \file   gyro_free.cpp
 /// \brief  Navigation by accelerometers alone: ins/gyro_free.h.
 /// SPDX-License-Identifier: MIT
-#include "arrays.hpp"
-#include <vector>
+#include "accels.hpp"
 
 namespace libins
 {
@@ -38,18 +37,8 @@ void init(Nav* self, const Config& cfg, const Given& bias, const Given& axis, co
     new (self) Nav();
     const Call call("GyroFree", "6 to 12 accelerometers that see all six unknowns, a start as Strapdown takes it, "
                                 "noise > 0 and no other deviation negative");
-    const auto biases = call.whole<ins_real>("bias", bias, {ANY});
-    const size_t n = biases.shape[0];
-    const auto axes = call.whole<ins_real>("axis", axis, {n, 3});
-    const auto places = call.whole<ins_real>("r", r, {n, 3});
-    std::vector<ins_accel_t> accels(n);
-    for (size_t j = 0; j < n; j++)
-    {
-        accels[j].bias = biases.data[j];
-        std::copy(axes.data + 3 * j, axes.data + 3 * j + 3, accels[j].axis);
-        std::copy(places.data + 3 * j, places.data + 3 * j + 3, accels[j].r);
-    }
-    call.check(ins_gyro_free_init(self, &cfg, static_cast<unsigned>(n), accels.data(), as_real(period_s),
+    const auto accels = accels_of(call, bias, axis, r);
+    call.check(ins_gyro_free_init(self, &cfg, static_cast<unsigned>(accels.size()), accels.data(), as_real(period_s),
                                   call.whole<ins_real>("q_nb", q_nb, {4}).data,
                                   call.whole<ins_real>("v_n", v_n, {3}).data, &position));
 }

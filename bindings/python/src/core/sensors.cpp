@@ -1,13 +1,29 @@
 /// \file   sensors.cpp
 /// \brief  Six or more accelerometers, their linear and their full calibration: ins/sixacc.h, ins/accelfit.h.
 /// SPDX-License-Identifier: MIT
-#include "arrays.hpp"
+#include "accels.hpp"
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 
 namespace libins
 {
 using namespace nb::literals;
+
+std::vector<ins_accel_t> accels_of(const Call& call, const Given& bias, const Given& axis, const Given& r)
+{
+    const auto biases = call.whole<ins_real>("bias", bias, {ANY});
+    const size_t n = biases.shape[0];
+    const auto axes = call.whole<ins_real>("axis", axis, {n, 3});
+    const auto places = call.whole<ins_real>("r", r, {n, 3});
+    std::vector<ins_accel_t> accels(n);
+    for (size_t j = 0; j < n; j++)
+    {
+        accels[j].bias = biases.data[j];
+        std::copy(axes.data + 3 * j, axes.data + 3 * j + 3, accels[j].axis);
+        std::copy(places.data + 3 * j, places.data + 3 * j + 3, accels[j].r);
+    }
+    return accels;
+}
 
 namespace
 {
@@ -33,18 +49,8 @@ void init(ins_sixacc_t* self, const Given& bias, const Given& axis, const Given&
 {
     new (self) ins_sixacc_t();
     const Call call("Sixacc", "6 to 12 accelerometers, finite, that see all six unknowns; period_s > 0");
-    const auto biases = call.whole<ins_real>("bias", bias, {ANY});
-    const size_t n = biases.shape[0];
-    const auto axes = call.whole<ins_real>("axis", axis, {n, 3});
-    const auto places = call.whole<ins_real>("r", r, {n, 3});
-    std::vector<ins_accel_t> accels(n);
-    for (size_t j = 0; j < n; j++)
-    {
-        accels[j].bias = biases.data[j];
-        std::copy(axes.data + 3 * j, axes.data + 3 * j + 3, accels[j].axis);
-        std::copy(places.data + 3 * j, places.data + 3 * j + 3, accels[j].r);
-    }
-    call.check(ins_sixacc_init(self, static_cast<unsigned>(n), accels.data(), as_real(period_s)));
+    const auto accels = accels_of(call, bias, axis, r);
+    call.check(ins_sixacc_init(self, static_cast<unsigned>(accels.size()), accels.data(), as_real(period_s)));
 }
 
 void bind_sixacc(nb::module_& m)
