@@ -283,10 +283,12 @@ static ins_status_t steer(ins_gps_dr_t* self, const ins_gps_dr_fix_t* fix)
         return ins_unicycle_course(&self->local[1], fix->course, sigma * sigma, INS_KALMAN_GATE_999, 0);
     }
     mixture(self, x, P);
-    for (unsigned k = 0; k < STATES; k++) // any heading of the sum is as good
+    for (unsigned i = 0; i < STATES; i++) // any heading of the sum is as good
     {
-        P[STATES * INS_UNICYCLE_HEADING + k] = 0;
-        P[STATES * k + INS_UNICYCLE_HEADING] = 0;
+        for (unsigned k = 0; k < STATES; k++)
+        {
+            P[STATES * i + k] *= i != INS_UNICYCLE_HEADING && k != INS_UNICYCLE_HEADING;
+        }
     }
     x[INS_UNICYCLE_HEADING] = ins_elementary_wrap(fix->course);
     P[(STATES + 1) * INS_UNICYCLE_HEADING] = sigma * sigma;

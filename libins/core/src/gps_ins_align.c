@@ -182,8 +182,8 @@ static int solve_step(const ins_real H[9], const ins_real g[3], ins_real x[3])
 /// Of the best rotation: P = H^-1, H = tr S - S; biases bend it by at most sqrt(P bent) (Cauchy and Schwarz).
 static void deviations(const ins_gps_ins_align_t* self, ins_real* level, ins_real* heading)
 {
-    ins_real H[9];
-    ins_real P[3];
+    ins_real H[9] = {0};
+    ins_real P[3] = {0, 0, 0};
     const ins_real trace = self->S[0] + self->S[4] + self->S[8];
     for (unsigned i = 0; i < 9; i++)
     {
@@ -192,7 +192,7 @@ static void deviations(const ins_gps_ins_align_t* self, ins_real* level, ins_rea
     for (unsigned i = 0; i < 3; i++)
     {
         ins_real axis[3] = {0, 0, 0};
-        ins_real column[3];
+        ins_real column[3] = {0, 0, 0};
         axis[i] = 1;
         P[i] = solve_step(H, axis, column) && column[i] > 0 ? column[i] : INS_REAL_MAX;
     }
