@@ -36,8 +36,9 @@ ins_status_t ins_gps_dr_paper_init(ins_gps_dr_paper_t* self, const ins_gps_dr_pa
 {
     static const ins_gps_dr_paper_t zero; // all 0
     static const ins_real nothing[6] = {0};
-    ins_gps_dr_paper_t made = zero;
+    ins_gps_dr_paper_t made;
     ins_real var[4];
+    made = zero;
     prior(cfg, var);
     if (ins_gps_axis_init(&made.axis[0], &cfg->axis, var) != INS_OK ||
         ins_dr_ekf_init(&made.dr, &cfg->dr, nothing, nothing) != INS_OK ||

@@ -194,7 +194,8 @@ ins_status_t ins_gyro_free_step(ins_gyro_free_t* self, const ins_real* readings)
     ins_real Q[GF_N * GF_N] = {0};
     ins_real Q_ud[INS_UD_SIZE(GF_N)];
     ins_real work[INS_UD_WORK(GF_N)];
-    const ins_sixacc_t before = self->sixacc;
+    ins_sixacc_t before;
+    before = self->sixacc;
     const ins_status_t status = ins_sixacc_step(&self->sixacc, readings, &increment);
     if (status != INS_OK)
     {
