@@ -11,9 +11,15 @@
 #include "ins_nav/nav.h"
 #include "ins_nav/nav_input.h"
 #include "ins_nav/six.h"
+#include "ins_nav/vehicle.h"
 #include "ins_truth/accel.h"
+#include "ins_truth/body.h"
+#include "ins_truth/drive.h"
+#include "ins_truth/exact.h"
+#include "ins_truth/front_end.h"
 #include "ins_truth/gps.h"
 #include "ins_truth/gyro.h"
+#include "ins_truth/imu.h"
 #include "ins_truth/motion.h"
 extern ins_nav_t nav;
 extern ins_nav_state_t state;

@@ -38,6 +38,12 @@ OWN_NAMES = {
     "ins/q31.h": "int32_t q_nb0[4] = {0}, dtheta_b[3] = {0};",
     "ins_nav/six.h": "static ins_nav_six_t six; static ins_nav_six_config_t config; static ins_nav_six_state_t state;"
     "static ins_nav_link_t link; static ins_nav_sample_t sample; static double lat_lon_height[3], age_s, sigma_m[3];",
+    "ins_nav/vehicle.h": "static ins_vehicle_t v; static int port; static ins_nav_solution_t solution;",
+    "ins_truth/body.h": "static ins_track_site_t site; static ins_drive_t* drive;",
+    "ins_truth/drive.h": "static ins_track_site_t site; static ins_body_input_t input;",
+    "ins_truth/exact.h": "static double t0, t1, dtheta_b[3], dv_b[3];",
+    "ins_truth/front_end.h": "static ins_gyro_t gyro;",
+    "ins_truth/imu.h": "static double theta[3], v[3], dt;",
     "ins/still.h": "static ins_still_config_t config;",
 }
 
@@ -82,7 +88,8 @@ def only_double(example: str) -> bool:
     """The host's and the emulator's libraries have one number type."""
     return (
         re.search(
-            r"\b(ins_(nav(?!_block)|dds|ros|motion|gyro|accels|track|gps(?!_axis|_ins))|emu|acq_board)_\w+", example
+            r"\b(ins_(nav(?!_block)|vehicle|dds|ros|motion|gyro|accels|imu|truth|track|gps(?!_axis|_ins))|emu|acq_board)_\w+",
+            example,
         )
         is not None
     )

@@ -36,17 +36,17 @@ def test_every_scenario_key_is_documented(schema):
 
 
 def test_the_commands_of_the_readme_exist(tmp_path):
-    """Every `ins ...` line is taken by the command's own parser; `ins nav` lines by the daemon's."""
+    """Every `ins ...` line is taken by the command's own parser; those of `ins nav` and `ins gpsdr` by the daemons'."""
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     block = "\n".join(re.findall(r"```sh\n(.*?)```", text, re.DOTALL))
     lines = [line.split("#")[0].strip().rstrip("&").split() for line in block.splitlines()]
     commands = [line[1:] for line in lines if line[:1] == ["ins"]]
     assert len(commands) >= 5
+    daemons = {"nav": "ins-navd", "gpsdr": "ins-gpsdr"}
     for command in commands:
-        if command[0] == "nav":
-            known = subprocess.run(
-                [ROOT / "build/release/python/libins/bin/ins-navd", "--help"], capture_output=True, text=True
-            )
+        if command[0] in daemons:
+            program = ROOT / "build/release/python/libins/bin" / daemons[command[0]]
+            known = subprocess.run([program, "--help"], capture_output=True, text=True)
             assert all(option.split("=")[0] in known.stdout for option in command if option.startswith("--"))
         else:
             cli.parser().parse_args(command)
