@@ -15,7 +15,7 @@ constexpr double MOVING_S = 15; ///< under way by then
 constexpr double DURATION_S = 75;
 constexpr Errors SMALL = {1e-3, 1e-3, 5e-3, 0.05, 0.05, 0.05, 0.5, 0.5, 0.5, 1e-4, 1e-4, 1e-4, 2e-3, 2e-3, 2e-3};
 constexpr Errors NONE = {};
-const ins_real NOT_A_NUMBER = std::nan("");
+const ins_real NOT_A_NUMBER = static_cast<ins_real>(std::nan(""));
 
 const ins_track_t* track()
 {
