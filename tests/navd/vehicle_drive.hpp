@@ -83,9 +83,11 @@ class Drive
         {
             return sentence(std::string("GPGGA,") + clock + ",,,,,0,00,,,M,,M,,");
         }
-        const std::string where =
-            angle(latitude() + FIX_SIGMA * normal(random) / RADIUS_N, 2, "NS") + "," +
-            angle(longitude() + FIX_SIGMA * normal(random) / (RADIUS_E * std::cos(LATITUDE)), 3, "EW");
+        // One after the other: within one expression the order would be the compiler's.
+        const double east_error = FIX_SIGMA * normal(random);
+        const double north_error = FIX_SIGMA * normal(random);
+        const std::string where = angle(latitude() + north_error / RADIUS_N, 2, "NS") + "," +
+                                  angle(longitude() + east_error / (RADIUS_E * std::cos(LATITUDE)), 3, "EW");
         char motion[64] = ",,";
         if (with_course)
         {
