@@ -74,14 +74,14 @@ def required(distribution: importlib.metadata.Distribution, found: frozenset[str
 def test_what_the_wheel_holds(wheel: Path):
     names = {n.removeprefix("libins/") for n in zipfile.ZipFile(wheel).namelist() if n.startswith("libins/")}
     sources = {p.name for p in (ROOT / "bindings/python/libins").iterdir() if p.suffix in {".py", ".html", ".typed"}}
-    built = {f"{module}.pyi" for module in ("core", "coref", "_run", "_truth")}
+    built = {f"{module}.pyi" for module in ("core", "coref", "_post", "_run", "_truth")}
     images = {f"firmware/{n}{kind}" for n in IMAGES for kind in (".ihx", "_debug.ihx", "_debug.cdb")}
     scenarios = {f"scenarios/{p.name}" for p in (ROOT / "emu/8051_tlc2543/scenarios").iterdir()}
     images |= {f"firmware/{p.name}.f2812" for p in (ROOT / "emu/f2812_sci/firmware").iterdir() if p.is_dir()}
     images.add("firmware/thesis_raw.f2812")
     scenarios |= {f"scenarios_f2812/{p.name}" for p in (ROOT / "emu/f2812_sci/scenarios").iterdir()}
     libraries = {n for n in names if n.endswith(".so")}
-    assert {n.split(".")[0] for n in libraries} == {"core", "coref", "_run", "_truth"}
+    assert {n.split(".")[0] for n in libraries} == {"core", "coref", "_post", "_run", "_truth"}
     assert names - libraries == sources | built | images | scenarios | {"bin/ins-navd"}
     version = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8").split("project(libins VERSION ")[1].split()[0]
     assert wheel.name.startswith(f"libins-{version}-")

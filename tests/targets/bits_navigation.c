@@ -1,13 +1,11 @@
 /// \file   bits_navigation.c
-/// \brief  Program: bit patterns from navigation, filters and what ends in libm (report.h).
+/// \brief  Program: bit patterns from navigation and what ends in libm (report.h).
 /// SPDX-License-Identifier: MIT
 #include "report.h"
 
 int main(void)
 {
     run_navigation();
-    run_filters();
-    run_vehicle();
     run_libm();
     return report_exit(0);
 }

@@ -21,7 +21,8 @@ OPTIMISATION = ("-O2",)
 SEPARATE = ("arm920t",)
 PROGRAMS = {
     "bits_attitude": ("bits_attitude", "attitude", "attitude_other", "octets"),
-    "bits_navigation": ("bits_navigation", "navigation", "filters", "vehicle", "libm"),
+    "bits_navigation": ("bits_navigation", "navigation", "libm"),
+    "bits_filters": ("bits_filters", "filters", "vehicle"),
     "vectors": (
         "vectors",
         "tape",

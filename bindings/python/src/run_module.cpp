@@ -65,7 +65,7 @@ nb::tuple libins::states_table(const std::vector<Scored>& states)
 {
     std::vector<double> values;
     nb::list raw;
-    const size_t columns = states.empty() ? 0 : scored_row(states.front()).size();
+    const size_t columns = scored_row(states.empty() ? Scored() : states.front()).size();
     for (const Scored& state : states)
     {
         const std::vector<double> row = scored_row(state);

@@ -230,12 +230,12 @@ ins_status_t ins_gps_ins_gnss(ins_gps_ins_t* self, const ins_gnss_fix_t* fix)
     }
     unsigned used = 0;
     const ins_gps_ins_config_t* c = &self->cfg;
-    const int fits = use_part(self, &e, 0, c->gate_position, &self->check.nis_position, &used);
+    const int good = use_part(self, &e, 0, c->gate_position, &self->check.nis_position, &used);
     const int moves = use_part(self, &e, 3, c->gate_velocity, &self->check.nis_velocity, &used);
-    self->count.fix_position += !fits;
+    self->count.fix_position += !good;
     self->count.fix_velocity += !moves;
     self->count.fixes += used > 0;
-    self->refused = (uint16_t)(fits && moves ? 0 : self->refused + 1);
+    self->refused = (uint16_t)(good && moves ? 0 : self->refused + 1);
     if (c->refused_max > 0 && self->refused > c->refused_max)
     {
         doubt(self, fix);
