@@ -129,7 +129,7 @@ class Authority:
         start, end = ((self.now - SLACK).strftime("%Y-%m-%dT%H:%M:%S"), self.end.strftime("%Y-%m-%dT%H:%M:%S"))
         return f"""<?xml version="1.0" encoding="utf-8"?>
 <dds xmlns:xsi="{NAMESPACE}" xsi:noNamespaceSchemaLocation="omg_shared_ca_permissions.xsd"><permissions>
-<grant name="{escape(subject.get_attributes_for_oid(NameOID.COMMON_NAME)[0].value)}">
+<grant name="{escape(str(subject.get_attributes_for_oid(NameOID.COMMON_NAME)[0].value))}">
 <subject_name>{escape(subject.rfc4514_string())}</subject_name>
 <validity><not_before>{start}</not_before><not_after>{end}</not_after></validity>
 <allow_rule><domains><id_range><min>0</min><max>{DOMAIN_MAX}</max></id_range></domains>
