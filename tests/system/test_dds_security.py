@@ -20,11 +20,13 @@ CYCLES = 100 if "INS_BENCH" in os.environ else 50
 ROUND = f"""
 import sys
 from libins import _dds
+def pages():
+    return int(open("/proc/self/statm").read().split()[1])
+seen = [pages()]
 for i in range({WARM_UP} + {CYCLES}):
     _dds.Handle({DOMAIN} + 1, _dds.TOPIC, None, True, False, sys.argv[1]).close()
-    if i == {WARM_UP} - 1:
-        first = int(open("/proc/self/statm").read().split()[1])
-print(first, int(open("/proc/self/statm").read().split()[1]))
+    seen.append(pages())
+print(seen[{WARM_UP}], seen[-1])
 """
 
 
