@@ -3,9 +3,7 @@
 ///
 /// Scalars in a row: S = H P H' + R = L D L', e = L^-1 v; e_i^2 / D_i is the NIS of each given those before, their sum the joint one.
 /// SPDX-License-Identifier: MIT
-#include "earth_internal.h"
 #include "gps_ins_internal.h"
-#include "ins/quat.h"
 #include "ins/vec.h"
 #include "strapdown_internal.h"
 
@@ -81,21 +79,7 @@ static void judge_rows(const ins_gps_ins_t* self, const columns_t* columns, gps_
 /// Truth = estimate + x, for fixes that come late too.
 static void correct_all(ins_gps_ins_t* self, const ins_real x[INS_KF15_N])
 {
-    ins_strapdown_t* nav = &self->nav;
-    ins_real dq[4];
-    ins_real s;
-    ins_real c;
-    earth_t earth;
-    if (ins_quat_from_rotvec(x + INS_KF15_PHI, dq) == INS_OK)
-    {
-        ins_quat_mul(dq, nav->sculling.q_nb, nav->sculling.q_nb);
-    }
-    strapdown_sin_cos(nav, nav->position.offset[0], &s, &c);
-    earth_at(s, nav->position.anchor[2] + nav->position.offset[2], &earth);
-    nav->position.offset[0] += x[INS_KF15_P] / earth.meridian;
-    nav->position.offset[1] += x[INS_KF15_P + 1] / (earth.normal * c);
-    nav->position.offset[2] -= x[INS_KF15_P + 2];
-    ins_vec_add_scaled(nav->v_n, 1, x + INS_KF15_V);
+    ins_strapdown_correct(&self->nav, x);
     ins_vec_add_scaled(self->gyro_bias, 1, x + INS_KF15_BG);
     ins_vec_add_scaled(self->accel_bias, 1, x + INS_KF15_BA);
     for (unsigned k = 0; k < INS_GPS_INS_PAST; k++)
