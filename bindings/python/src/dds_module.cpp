@@ -1,5 +1,6 @@
 /// \file   dds_module.cpp
 /// \brief  The Python module libins._dds: publisher and subscriber over libins_dds, ROS 2 topics. SPDX-License-Identifier: MIT
+#include "dds_module.hpp"
 #include "ins_dds/dds.h"
 #include "ins_dds/ros.h"
 #include <algorithm>
@@ -20,25 +21,6 @@ using namespace nb::literals;
 
 namespace
 {
-
-/// The files of a folder that `ins keys` made.
-class Security
-{
-  public:
-    explicit Security(const std::optional<std::string>& folder) : used(folder.has_value())
-    {
-        if (folder && ins_dds_security_folder(folder->c_str(), &files, memory.data()) != INS_DDS_OK)
-        {
-            throw std::runtime_error(ins_dds_error_text());
-        }
-    }
-    const ins_dds_security_t* get() const { return used ? &files : nullptr; }
-
-  private:
-    bool used;
-    std::array<char, INS_DDS_SECURITY_MEMORY> memory{};
-    ins_dds_security_t files{};
-};
 
 class Handle
 {
@@ -138,15 +120,6 @@ class Node
     ins_ros_t* self_ = nullptr;
 };
 
-int checked(int result)
-{
-    if (result < 0)
-    {
-        throw std::runtime_error(ins_dds_error_text());
-    }
-    return result;
-}
-
 /// raw: the octets of an ins_nav_state_t, as Run.take_states() gives them.
 ins_nav_state_t state_of(const nb::bytes& raw)
 {
@@ -233,6 +206,7 @@ NB_MODULE(_dds, m)
     m.doc() = "Navigation states over DDS; see ins_dds/dds.h.";
     m.attr("TOPIC") = INS_DDS_TOPIC;
     m.attr("SOLUTION_TOPIC") = INS_DDS_SOLUTION_TOPIC;
+    bind_raw(m);
     nb::class_<Handle>(m, "Handle")
         .def(nb::init<uint32_t, const std::string&, const std::optional<std::string>&, bool, bool,
                       const std::optional<std::string>&, bool>(),
