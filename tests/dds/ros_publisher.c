@@ -1,5 +1,5 @@
 // Publishes known instants as ROS 2 topics, and prints each as a line of JSON.   ros_publisher DOMAIN READERS COUNT
-// Waits until READERS readers of imu/data are there, and a second longer than COUNT instants take.
+// Waits until READERS readers are matched, all topics together; ends when its standard input does.
 // SPDX-License-Identifier: MIT
 #include "ins/quat.h"
 #include "ins_dds/ros.h"
@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #define PERIOD_US 10000
-#define WAIT_S    20
+#define WAIT_S    60
 
 /// Positive definite, with every correlation its own.
 static void covariance(double P[INS_NAVIGATION_P * INS_NAVIGATION_P])
@@ -41,6 +41,16 @@ static int fail(const char* what)
     return 1;
 }
 
+static int matched(ins_ros_t* ros)
+{
+    int readers = 0;
+    for (int topic = 0; topic < INS_ROS_TOPICS; topic++)
+    {
+        readers += ins_ros_matched(ros, (ins_ros_topic_t)topic);
+    }
+    return readers;
+}
+
 int main(int argc, char** argv)
 {
     if (argc != 4)
@@ -52,6 +62,7 @@ int main(int argc, char** argv)
     ins_ros_config_default(&cfg);
     cfg.dds.domain = (uint32_t)atoi(argv[1]);
     cfg.name_space = "/car";
+    cfg.dds.history = 1000; // a reader may fall behind: every instant is to arrive
     cfg.rate_sigma = 0.003;
     cfg.force_sigma = 0.04;
     cfg.topic[INS_ROS_TWIST].decimate = 5;
@@ -59,7 +70,7 @@ int main(int argc, char** argv)
     {
         return fail("open");
     }
-    for (int i = 0; ins_ros_matched(ros, INS_ROS_IMU) < atoi(argv[2]); i++)
+    for (int i = 0; matched(ros) < atoi(argv[2]); i++)
     {
         if (i > WAIT_S * 1000)
         {
@@ -96,7 +107,9 @@ int main(int argc, char** argv)
         return fail("diagnose");
     }
     fflush(stdout);
-    sleep(1);
+    while (getchar() != EOF)
+    {
+    }
     ins_ros_close(ros);
     return 0;
 }

@@ -7,7 +7,10 @@ import os
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import IO
 
 import numpy as np
 import pytest
@@ -29,6 +32,8 @@ TOPICS = {
     "rt/tf": "tf2_msgs/msg/TFMessage",
     "rt/diagnostics": "diagnostic_msgs/msg/DiagnosticArray",
 }
+SAMPLES = 4 * COUNT + COUNT // TWIST_EVERY + 1
+"""Of all topics: an Imu, NavSatFix, Odometry and TFMessage an instant."""
 TYPES = get_typestore(Stores.ROS2_JAZZY)
 EARTH_RATE = 7.292115e-5
 A, F = 6378137.0, 1 / 298.257223563
@@ -41,41 +46,65 @@ def wire(message: str) -> str:
     return f"{package}::msg::dds_::{name}_"
 
 
+class Heard:
+    """What the other stack hears and finds, as it comes."""
+
+    def __init__(self, lines: IO[str]):
+        self._lines = lines
+
+    def all(self) -> list[dict]:
+        self._lines.seek(0)
+        return [json.loads(line) for line in self._lines if line.endswith("\n")]
+
+    def samples(self) -> int:
+        return sum("topic" in line for line in self.all())
+
+    def wait(self, samples: int) -> None:
+        end = time.monotonic() + WALL_LIMIT_S
+        while self.samples() < samples:
+            assert time.monotonic() < end, f"{self.samples()} of {samples} samples came in {WALL_LIMIT_S} s"
+            time.sleep(0.05)
+
+
 @contextlib.contextmanager
-def judge(topics: dict[str, str], kind: str = "reliable") -> Iterator[list[dict]]:
-    """What the other stack hears and finds while the block runs, in the list when it has ended."""
+def judge(topics: dict[str, str], kind: str = "reliable") -> Iterator[Heard]:
+    """Another stack that listens while the block runs."""
     program = PROGRAMS / "fastdds_judge"
     assert program.exists(), f"{program} is missing: install libfastrtps-dev and build the tests"
     pairs = [text for topic, message in topics.items() for text in (topic, wire(message))]
     command = [str(program), str(DOMAIN), str(WALL_LIMIT_S), kind, *pairs]
-    heard: list[dict] = []
-    with tempfile.TemporaryFile("w+") as lines:
-        listener = subprocess.Popen(command, stdout=lines, stderr=subprocess.PIPE, text=True)
+    with tempfile.TemporaryDirectory() as folder, (Path(folder) / "heard").open("w+") as lines:
+        with (Path(folder) / "heard").open("w") as out:
+            listener = subprocess.Popen(command, stdout=out, stderr=subprocess.PIPE, text=True)
         try:
             assert listener.stderr is not None
             assert listener.stderr.readline() == "ready\n"
-            yield heard
+            yield Heard(lines)
         finally:
             listener.terminate()
             listener.communicate(timeout=10)
-        lines.seek(0)
-        heard += [json.loads(line) for line in lines if line.endswith("\n")]
 
 
 def published(
-    count: int, kind: str = "reliable", topics: dict[str, str] = TOPICS, readers: int = 1
+    count: int, samples: int, kind: str = "reliable", topics: dict[str, str] = TOPICS, readers: int = len(TOPICS)
 ) -> tuple[list[dict], list[dict]]:
-    """What was said, and what was heard."""
-    with judge(topics, kind) as heard:
-        command = [str(PROGRAMS / "ros_publisher"), str(DOMAIN), str(readers), str(count)]
-        said = subprocess.run(command, capture_output=True, text=True, timeout=WALL_LIMIT_S)
-        assert said.returncode == 0, said.stderr
-    return [json.loads(line) for line in said.stdout.splitlines()], heard
+    """What was said, and what was heard when so many samples had come."""
+    command = [str(PROGRAMS / "ros_publisher"), str(DOMAIN), str(readers), str(count)]
+    with judge(topics, kind) as heard, tempfile.TemporaryFile("w+") as said:
+        publisher = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=subprocess.PIPE, text=True)
+        try:
+            heard.wait(samples)
+            _, errors = publisher.communicate(timeout=WALL_LIMIT_S)  # closes its standard input
+        finally:
+            publisher.kill()
+        assert publisher.returncode == 0, errors
+        said.seek(0)
+        return [json.loads(line) for line in said], heard.all()
 
 
 @pytest.fixture(scope="module")
 def exchange() -> tuple[list[dict], dict[str, list], list[dict]]:
-    said, heard = published(COUNT)
+    said, heard = published(COUNT, SAMPLES)
     messages: dict[str, list] = {topic: [] for topic in TOPICS}
     for line in heard:
         if "topic" in line:
@@ -244,7 +273,7 @@ def test_discovery_tells_types_hashes_and_the_enclave(exchange):
 
 def test_ros_discovery_info_names_the_node_and_its_writers():
     topics = {"ros_discovery_info": "rmw_dds_common/msg/ParticipantEntitiesInfo"}
-    _, heard = published(1, "latched", topics, readers=0)
+    _, heard = published(1, 1, "latched", topics, readers=0)
     infos = [line for line in heard if line.get("topic") == "ros_discovery_info"]
     assert len(infos) == 1
     info = TYPES.deserialize_cdr(bytes.fromhex(infos[0]["cdr"]), topics["ros_discovery_info"])
@@ -256,8 +285,7 @@ def test_ros_discovery_info_names_the_node_and_its_writers():
 
 
 def test_a_best_effort_reader_is_served_too():
-    _, heard = published(20, "best_effort", {"rt/car/imu/data": TOPICS["rt/car/imu/data"]})
-    assert sum("topic" in line for line in heard) >= 15
+    published(20, 15, "best_effort", {"rt/car/imu/data": TOPICS["rt/car/imu/data"]}, readers=1)
 
 
 def test_the_daemon_publishes_a_boards_attitude():
@@ -266,7 +294,7 @@ def test_the_daemon_publishes_a_boards_attitude():
     navd = ROOT / "build/release/python/libins/bin/ins-navd"
     with judge(topics) as heard, board("default", "uart=tcp:0", 10) as (_, address):
         daemon = subprocess.run(
-            [str(navd), "--device", f"tcp:{address}", "--ros", "--limit", "100", "--timeout-s", "5"],
+            [str(navd), "--device", f"tcp:{address}", "--ros", "--limit", "200", "--timeout-s", "5"],
             env=os.environ | {"ROS_DOMAIN_ID": str(DOMAIN)},
             capture_output=True,
             text=True,
@@ -274,7 +302,7 @@ def test_the_daemon_publishes_a_boards_attitude():
         )
         assert daemon.returncode == 0, daemon.stderr
         assert daemon.stdout == "", "states go to ROS alone"
-    octets = [(m["topic"], bytes.fromhex(m["cdr"])) for m in heard if "topic" in m]
+        octets = [(m["topic"], bytes.fromhex(m["cdr"])) for m in heard.all() if "topic" in m]
     imus = [TYPES.deserialize_cdr(cdr, topics[topic]) for topic, cdr in octets if topic == "rt/imu/data"]
     assert len(imus) > 20
     for imu in imus:
@@ -291,15 +319,15 @@ def test_a_run_publishes_its_own_navigator_beside_its_states():
     with judge(topics) as heard:
         environment = {key: value for key, value in os.environ.items() if key != "ROS_DOMAIN_ID"}
         done = subprocess.run(
-            [*command, "--stop-s", "3", "--speed", "1", "--json", "-"],
+            [*command, "--stop-s", "4", "--speed", "1", "--json", "-"],
             env=environment,
             capture_output=True,
             text=True,
             timeout=WALL_LIMIT_S,
         )
         assert done.returncode == 0, done.stderr
-    assert json.loads(done.stdout)["dds"]["published"] > 100
-    assert sum("topic" in line for line in heard) > 50
+        assert json.loads(done.stdout)["dds"]["published"] > 100
+        assert heard.samples() > 50
 
 
 def test_a_wrong_namespace_is_refused():
