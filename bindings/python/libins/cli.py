@@ -19,7 +19,10 @@ from libins import (
     campaign,
     debug_cli,
     endpoint,
+    export_cli,
     keys_cli,
+    play_cli,
+    record_cli,
     replay_cli,
     report,
     run,
@@ -140,6 +143,14 @@ def parser() -> argparse.ArgumentParser:
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
     commands.add_parser("gpsdr", help="start ins-gpsdr; every option is its own (ins gpsdr --help)", add_help=False)
 
+    m = commands.add_parser("record", help="record DDS topics as MCAP, which viewers of ROS 2 read")
+    record_cli.options(m)
+    _dds_options(m, topic=False)
+    y = commands.add_parser("play", help="publish a recording again, with its spacing")
+    play_cli.options(y)
+    _dds_options(y, topic=False)
+    export_cli.options(commands.add_parser("export", help="a recording as CSV or for NumPy"))
+
     keys_cli.options(commands.add_parser("keys", help="make certificates and permissions for DDS Security"))
 
     s = commands.add_parser("sub", help="print navigation states that arrive over DDS, one line of JSON each")
@@ -187,9 +198,10 @@ def _print_octets(octets: bytes) -> None:
     sys.stdout.buffer.flush()
 
 
-def _dds_options(command: argparse.ArgumentParser) -> None:
+def _dds_options(command: argparse.ArgumentParser, topic: bool = True) -> None:
     command.add_argument("--domain", type=int, default=0, metavar="N", help="DDS domain id, 0..230 (0)")
-    command.add_argument("--topic", default=None, metavar="T", help="DDS topic name")
+    if topic:
+        command.add_argument("--topic", default=None, metavar="T", help="DDS topic name")
     command.add_argument(
         "--dds-config",
         type=Path,
@@ -227,6 +239,19 @@ def open_dds(options: argparse.Namespace, publishes: bool, exclusive: bool = Fal
     try:
         topic = options.topic or (_dds.SOLUTION_TOPIC if solution else _dds.TOPIC)
         return _dds.Handle(options.domain, topic, xml, publishes, exclusive, _security(options), solution)
+    except RuntimeError as error:
+        raise UsageError(f"DDS: {error}") from error
+
+
+def open_raw(options: argparse.Namespace) -> Any:
+    """Topics as octets, from the command line's options; with --ros on ROS_DOMAIN_ID. Raises UsageError."""
+    if options.ros and (ros := os.environ.get("ROS_DOMAIN_ID")):
+        if not ros.isdigit():
+            raise UsageError(f"ROS_DOMAIN_ID is '{ros}': must be a number, or not set")
+        options.domain = int(ros)
+    _dds, xml = _dds_module(options)
+    try:
+        return _dds.Raw(options.domain, xml, _security(options))
     except RuntimeError as error:
         raise UsageError(f"DDS: {error}") from error
 
@@ -421,6 +446,9 @@ def main(arguments: list[str] | None = None) -> int:
             "allan": allan_cli.run,
             "campaign": campaign.command,
             "debug": debug_cli.run,
+            "record": record_cli.run,
+            "play": play_cli.run,
+            "export": export_cli.run,
             "replay": replay_cli.run,
             "keys": keys_cli.run,
             "sim": sim_cli.run,

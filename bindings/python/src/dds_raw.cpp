@@ -152,6 +152,18 @@ void bind_raw(nb::module_& m)
         .def("publish", [](Raw& self, const Topic& t) { return checked(ins_dds_raw_publish(self.get(), &t)); })
         .def("take", take, "timeout_s"_a)
         .def("write", put, "topic"_a, "octets"_a)
+        .def(
+            "delivered",
+            [](Raw& self, double timeout_s)
+            {
+                int status = 0;
+                {
+                    const nb::gil_scoped_release release;
+                    status = ins_dds_raw_delivered(self.get(), timeout_s);
+                }
+                checked(status);
+            },
+            "timeout_s"_a)
         .def("matched", [](Raw& self, int index) { return checked(ins_dds_raw_matched(self.get(), index)); })
         .def("close", &Raw::close);
 }

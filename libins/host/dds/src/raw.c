@@ -359,6 +359,20 @@ int ins_dds_raw_write(ins_dds_raw_t* self, int topic, const uint8_t* octets, siz
                     : INS_DDS_OK;
 }
 
+int ins_dds_raw_delivered(ins_dds_raw_t* self, double timeout_s)
+{
+    const dds_time_t end = dds_time() + dds_duration(timeout_s);
+    for (int i = 0; i < self->topics; i++)
+    {
+        const dds_duration_t left = end - dds_time();
+        if (self->is_writer[i] && dds_wait_for_acks(self->entity[i], left > 0 ? left : 0) != DDS_RETCODE_OK)
+        {
+            return dds_fail(INS_DDS_E_DDS, "a reader has not confirmed everything within %g s", timeout_s);
+        }
+    }
+    return INS_DDS_OK;
+}
+
 int ins_dds_raw_matched(ins_dds_raw_t* self, int topic)
 {
     if (topic < 0 || topic >= self->topics)

@@ -1,10 +1,14 @@
 /// \file   ins_dds/raw.h
 /// \brief  Messages as octets, for recorders and players: what is taken is published again without a look at its fields.
 ///
-///     ins_dds_raw_t* raw;
+///     ins_dds_config_t cfg;
+///     ins_dds_raw_topic_t topic;
+///     ins_dds_raw_message_t message[64];
+///     ins_dds_config_default(&cfg);
 ///     if (ins_dds_raw_open(&cfg, &raw) != INS_DDS_OK) { puts(ins_dds_error_text()); }
 ///     while (ins_dds_raw_found(raw, &topic, 1) > 0) { ins_dds_raw_subscribe(raw, &topic); }
 ///     int count = ins_dds_raw_take(raw, 0.1, message, 64);
+///     for (int k = 0; k < count; k++) { use(message[k].octets); }
 ///
 /// The octets are CDR with the four of its header (00 01 00 00: XCDR1, little endian), as they came. Types are those of idl/.
 /// One thread at a time uses a handle.
@@ -58,6 +62,8 @@ INS_API int ins_dds_raw_publish(ins_dds_raw_t* self, const ins_dds_raw_topic_t* 
 INS_API int ins_dds_raw_take(ins_dds_raw_t* self, double timeout_s, ins_dds_raw_message_t* out, int max);
 /// \return INS_DDS_OK; INS_DDS_E_ARGUMENT: no such writer; INS_DDS_E_DDS: not CDR of its type, or a reader does not keep up.
 INS_API int ins_dds_raw_write(ins_dds_raw_t* self, int topic, const uint8_t* octets, size_t size);
+/// Wait until every reliable reader has everything that was written. \return INS_DDS_OK; INS_DDS_E_DDS: not within timeout_s.
+INS_API int ins_dds_raw_delivered(ins_dds_raw_t* self, double timeout_s);
 /// Readers or writers of others that the topic with this index is matched with; negative on error.
 INS_API int ins_dds_raw_matched(ins_dds_raw_t* self, int topic);
 /// NULL is allowed.
