@@ -29,6 +29,7 @@ from libins import (
     scenario,
     seeing,
     sim_cli,
+    view_cli,
 )
 from libins.errors import CrashError, UsageError
 from libins.program import CONSOLES, Program, address, exit_place
@@ -151,6 +152,7 @@ def parser() -> argparse.ArgumentParser:
     _dds_options(y, topic=False)
     export_cli.options(commands.add_parser("export", help="a recording as CSV or for NumPy"))
 
+    view_cli.options(commands.add_parser("view", help="a board or a recording as a page in the browser: docs/view.md"))
     keys_cli.options(commands.add_parser("keys", help="make certificates and permissions for DDS Security"))
 
     s = commands.add_parser("sub", help="print navigation states that arrive over DDS, one line of JSON each")
@@ -454,6 +456,7 @@ def main(arguments: list[str] | None = None) -> int:
             "sim": sim_cli.run,
             "calib": calib_cli.run,
             "sub": _sub_command,
+            "view": view_cli.run,
         }
         return commands[options.command](options)
     except UsageError as error:

@@ -24,18 +24,22 @@ SP = 0x81
 class Control:
     """One run under control. Raises UsageError for what cannot be."""
 
-    def __init__(self, loaded: scenario.Scenario, table: Cdb | None, navigator: bool = True):
-        """`table`: the program's names and lines. navigator: the scenario's plays the host."""
+    def __init__(self, loaded: scenario.Scenario, table: Cdb | None, navigator: bool = True, seen: bool = False):
+        """`table`: the program's names and lines. navigator: the scenario's plays the host.
+
+        seen: every edge and sample is kept, for a follower of the timeline that takes them.
+        """
         tables = loaded.tables
         self.scenario, self.table = loaded, table
         self.navigator = navigator and tables.nav is not None
-        self.run: Any = run.build(loaded, tables.seed, not self.navigator, trace=False, listen=True)
+        self.run: Any = run.build(loaded, tables.seed, not self.navigator, trace=seen, listen=True, seen=seen)
         self.end_ps = round(tables.stop_s * PS_PER_S)
         self.timeline = Timeline(self.run, tables.clock_hz)
         self.memory = Memory(self.run, self._write)
         self.breakpoints: dict[int, Breakpoint] = {}
         self.wants_to_stop: Callable[[], bool] = lambda: False
         """Asked between slices of a run."""
+        self.slice_cycles = SLICE_CYCLES
         self._number = 0
         self._set: set[int] = set()
         self._resumed_ps = 0
@@ -232,10 +236,11 @@ class Control:
 
     def _slice(self, limit_ps: int) -> Stop | None:
         now = int(self.run.now_ps)
+        self.timeline.trim()
         armed = [each for each in self.breakpoints.values() if each.enabled]
         times = [each.at_ps for each in armed if each.kind == "time" and each.at_ps > now]
         seen = len(self.timeline.received)
-        goal = min([limit_ps, now + self.timeline.ps(SLICE_CYCLES), *times])
+        goal = min([limit_ps, now + self.timeline.ps(self.slice_cycles), *times])
         reached = self.timeline.advance(goal, any(each.kind == "octet" for each in armed))
         events = self._events(reached, now, seen)
         stopping = [(each, note) for each, note in events if self._counts(each)]

@@ -163,14 +163,15 @@ def open_scenario(
     firmware: Path | None = None,
     settings: Mapping[str, Any] | None = None,
     navigator: bool = True,
+    seen: bool = False,
 ) -> Debugger:
-    """A scenario, an image alone or a snapshot's file, from its start. Raises UsageError.
+    """A scenario, an image alone or a snapshot's file, from its start; seen: as of Control. Raises UsageError.
 
     Of an image without a .cdb beside it, the one built with --debug (NAME_debug.ihx) is taken where there is one.
     """
     if zipfile.is_zipfile(name):
         snap = snapshot.read(Path(name))
-        debugger = Debugger(snap.scenario, _table(snap.scenario.firmware), snap.navigator)
+        debugger = Debugger(snap.scenario, _table(snap.scenario.firmware), snap.navigator, seen)
         debugger.restore(snap)
         return debugger
     path = scenario.find(name)
@@ -179,7 +180,7 @@ def open_scenario(
     debug = image.with_name(f"{image.stem}_debug{image.suffix}")
     if not image.with_suffix(".cdb").exists() and debug.exists() and debug.with_suffix(".cdb").exists():
         loaded = scenario.load_board(path, debug, settings)
-    return Debugger(loaded, _table(loaded.firmware), navigator)
+    return Debugger(loaded, _table(loaded.firmware), navigator, seen)
 
 
 def _table(image: Path) -> cdb.Cdb | None:

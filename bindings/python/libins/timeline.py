@@ -8,7 +8,7 @@ every second one is dropped and the spacing doubled.
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 from libins.run import PS_PER_S
 
@@ -19,6 +19,8 @@ FINER = 16
 BUDGET = 256 << 20
 """Octets of snapshots."""
 CLOCKS_PER_CYCLE = 12
+RECEIVED_KEPT = 1 << 16
+"""Octets of the host that trim() leaves."""
 
 
 class Position(NamedTuple):
@@ -36,6 +38,8 @@ class Mark:
     number: int
     """Of its place in the grid."""
     state: bytes
+    followed: object
+    """What the follower had to keep."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +48,22 @@ class Input:
 
     at_ps: int
     change: Callable[[Any], object]
+
+
+class Follower(Protocol):
+    """Takes what a run puts out while it passes, and goes back with it."""
+
+    def follow(self, run: Any, received: list[tuple[int, int, bool]]) -> None:
+        """The run has come to another instant, no further than the next snapshot; what the host received meanwhile."""
+        ...
+
+    def save(self) -> object:
+        """What restore() needs."""
+        ...
+
+    def restore(self, saved: object, at_ps: int) -> None:
+        """The run was taken back, or on, to an instant of which save() was asked."""
+        ...
 
 
 class Timeline:
@@ -55,6 +75,12 @@ class Timeline:
         self._cycle_ps = CLOCKS_PER_CYCLE * PS_PER_S / crystal_hz
         self._grid_ps = max(1, self.ps(spacing) // FINER)
         self._budget = budget
+        self._follower: Follower | None = None
+        self.begin()
+
+    def follow(self, follower: Follower) -> None:
+        """From now on, which must be the begin."""
+        self._follower = follower
         self.begin()
 
     def begin(self) -> None:
@@ -86,6 +112,15 @@ class Timeline:
     def end_ps(self) -> int:
         """The last input of the known future, or now."""
         return max([int(self.run.now_ps), *(each.at_ps for each in self._inputs[self._applied :])])
+
+    @property
+    def changes(self) -> list[tuple[int, Callable[[Any], object]]]:
+        """What the outside did, the known future included: instants [ps] and changes."""
+        return [(each.at_ps, each.change) for each in self._inputs]
+
+    def trim(self) -> None:
+        """Forget octets that the host received long ago."""
+        del self.received[:-RECEIVED_KEPT]
 
     def marks(self) -> list[Position]:
         """Where the snapshots are."""
@@ -147,11 +182,14 @@ class Timeline:
         return bisect_right(self._marks, position, key=lambda mark: mark.position)
 
     def _take(self) -> Mark:
-        return Mark(self.position, int(self.run.now_ps) // self._grid_ps, self.run.save())
+        followed = self._follower.save() if self._follower is not None else None
+        return Mark(self.position, int(self.run.now_ps) // self._grid_ps, self.run.save(), followed)
 
     def _restore(self, mark: Mark) -> None:
         self.run.restore(mark.state)
         self._applied = mark.position.inputs
+        if self._follower is not None:
+            self._follower.restore(mark.followed, mark.position.at_ps)
         del self.received[bisect_right(self.received, mark.position.at_ps, key=lambda octet: octet[0]) :]
 
     def _apply(self) -> None:
@@ -169,8 +207,12 @@ class Timeline:
         """Run to an instant, but no further than the next snapshot."""
         due_ps = (self.run.now_ps // self._grid_ps + 1) * self._grid_ps
         reached = bool((self.run.until_octet if to_octet else self.run.until)(min(goal_ps, due_ps)))
-        self.run.take_states()
-        self.received += self.run.take_received()
+        received = self.run.take_received()
+        self.received += received
+        if self._follower is not None:
+            self._follower.follow(self.run, received)
+        else:
+            self.run.take_states()
         if self.run.now_ps >= due_ps:
             self._keep()
         return reached

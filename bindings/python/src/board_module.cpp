@@ -75,10 +75,10 @@ nb::bytes take_output(Run& run)
     return nb::bytes(octets.data(), octets.size());
 }
 
-nb::list take_received(Run& run)
+nb::list octets_list(const std::vector<Octet>& octets)
 {
     nb::list list;
-    for (const Octet& octet : run.take_octets())
+    for (const Octet& octet : octets)
     {
         list.append(nb::make_tuple(octet.at, octet.value, octet.framing_ok));
     }
@@ -107,7 +107,8 @@ mcs51_part_t part_of(const std::string& name)
 void bind_board(nb::class_<Run>& run)
 {
     run.def("until_octet", &Run::until_octet, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
-        .def("take_received", take_received)
+        .def("take_received", [](Run& self) { return octets_list(self.take_octets()); })
+        .def("take_sent", [](Run& self) { return octets_list(self.take_sent()); })
         .def("save",
              [](Run& self)
              {

@@ -14,7 +14,7 @@ constexpr emu_time_t ms = 1'000'000'000;
 int CodesListener::octet(uint8_t octet, bool framing_ok, emu_time_t at)
 {
     // A UART hands no octet on without its stop bit.
-    return framing_ok ? navigator.octet(octet, at, board_->run().scans, board_->run().motion()) : -1;
+    return framing_ok ? navigator.octet(octet, at, board_->run().scans, board_->run().motion().get()) : -1;
 }
 
 BlocksListener::BlocksListener()

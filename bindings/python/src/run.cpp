@@ -178,10 +178,21 @@ void Run::set_motion(std::shared_ptr<ins_motion_t> motion)
     gyro_.motion = motion_.get();
 }
 
+/// \return whether the host's transmitter had room.
+bool Run::transmit(uint8_t octet)
+{
+    const bool taken = emu_serial_end_send(&end_, octet);
+    if (taken && config_.seen && config_.listen)
+    {
+        sent_.push_back({sched_.now, octet, true});
+    }
+    return taken;
+}
+
 size_t Run::send(const std::string& octets)
 {
     size_t taken = 0;
-    while (taken < octets.size() && emu_serial_end_send(&end_, static_cast<uint8_t>(octets[taken])))
+    while (taken < octets.size() && transmit(static_cast<uint8_t>(octets[taken])))
     {
         taken++;
     }
@@ -270,7 +281,7 @@ void Run::on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at)
     }
     if (const int reply = self.navigator_.octet(octet, at, self.scans, self.motion_.get()); reply >= 0)
     {
-        emu_serial_end_send(&self.end_, static_cast<uint8_t>(reply));
+        self.transmit(static_cast<uint8_t>(reply));
     }
 }
 

@@ -143,10 +143,12 @@ class Run
     std::vector<Edge> take_pin_edges() { return std::exchange(pin_edges_, {}); }
     std::vector<Sample> take_samples() { return std::exchange(samples_, {}); }
     std::vector<Octet> take_octets() { return std::exchange(octets_, {}); }
+    /// What the host's end was given to send, kept where config.seen and config.listen are on; `at` is when it was.
+    std::vector<Octet> take_sent() { return std::exchange(sent_, {}); }
 
     std::vector<Scan> scans;
     std::vector<Report> reports;
-    const ins_motion_t* motion() const { return motion_.get(); }
+    const std::shared_ptr<ins_motion_t>& motion() const { return motion_; }
     uint64_t corrupt_accepted() const { return navigator_.corrupt_accepted; }
     ins_nav_counts_t counts() const { return navigator_.link.counts; }
     const emu_serial_end_t& host_end() const { return end_; }
@@ -167,6 +169,7 @@ class Run
     static double on_volts(void* ctx, unsigned channel, int64_t t);
     static void on_sample(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at);
     static void on_outcome(void* ctx, unsigned channel, emu_time_t at, tlc2543_outcome_t* outcome);
+    bool transmit(uint8_t octet);
     static void on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at);
     static void on_edge(void* ctx, bool level, emu_time_t at);
     static void on_pin_edge(void* ctx, bool level, emu_time_t at);
@@ -203,7 +206,7 @@ class Run
     std::array<Tap, traced.size()> taps_{};
     std::array<Tap, pins> pin_taps_{};
     std::vector<Edge> edges_;
-    std::vector<Octet> octets_;
+    std::vector<Octet> octets_, sent_;
     bool stop_at_octet_ = false;
     std::vector<Edge> pin_edges_;
     std::vector<Sample> samples_;

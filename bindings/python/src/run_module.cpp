@@ -284,6 +284,7 @@ NB_MODULE(_run, m)
         .def("until", &Run::until, "t_ps"_a, nb::call_guard<nb::gil_scoped_release>())
         .def_prop_ro("now_ps", &Run::now)
         .def_prop_ro("channels", &Run::channels)
+        .def_prop_ro("motion", [](const Run& self) { return Motion{self.motion()}; })
         .def("take_states", [](Run& self) { return libins::states_table(self.take_states()); })
         .def("take_edges", take_edges)
         .def("take_octets",

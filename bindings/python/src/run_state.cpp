@@ -230,6 +230,8 @@ void Run::restore(const std::string& octets)
     edges_.clear();
     pin_edges_.clear();
     octets_.clear();
+    sent_.clear();
+    samples_.clear();
 }
 
 } // namespace libins

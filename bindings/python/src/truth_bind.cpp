@@ -182,6 +182,15 @@ void bind_motions(nb::module_& m)
             },
             "t"_a, "q_nb, scalar first, at t [s].")
         .def(
+            "rate",
+            [](const Motion& self, double t)
+            {
+                std::array<double, 3> w{};
+                ins_motion_rate(self.handle.get(), t, w.data());
+                return w;
+            },
+            "t"_a, "w_ib_b at t [rad/s].")
+        .def(
             "span",
             [](const Motion& self)
             {
