@@ -17,6 +17,7 @@ from libins import (
     allan_cli,
     calib_cli,
     campaign,
+    dds_options,
     debug_cli,
     endpoint,
     export_cli,
@@ -112,7 +113,7 @@ def parser() -> argparse.ArgumentParser:
     r.add_argument(
         "--wait", action="store_true", help="with --serial: power the board when somebody opens the other end"
     )
-    _dds_options(r)
+    dds_options.options(r)
     _program_options(r)
 
     c = commands.add_parser(
@@ -139,17 +140,17 @@ def parser() -> argparse.ArgumentParser:
 
     p = commands.add_parser("replay", help="run a recorded drive through a filter: docs/replay.md")
     replay_cli.options(p)
-    _dds_options(p)
+    dds_options.options(p)
 
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
     commands.add_parser("gpsdr", help="start ins-gpsdr; every option is its own (ins gpsdr --help)", add_help=False)
 
     m = commands.add_parser("record", help="record DDS topics as MCAP, which viewers of ROS 2 read")
     record_cli.options(m)
-    _dds_options(m, topic=False)
+    dds_options.options(m, topic=False)
     y = commands.add_parser("play", help="publish a recording again, with its spacing")
     play_cli.options(y)
-    _dds_options(y, topic=False)
+    dds_options.options(y, topic=False)
     export_cli.options(commands.add_parser("export", help="a recording as CSV or for NumPy"))
 
     view_cli.options(commands.add_parser("view", help="a board or a recording as a page in the browser: docs/view.md"))
@@ -160,7 +161,7 @@ def parser() -> argparse.ArgumentParser:
     s.add_argument("--limit", type=int, metavar="N", help="stop after N states")
     s.add_argument("--timeout-s", type=float, metavar="S", help="exit 1 when nothing arrives for so long")
     s.add_argument("--exclusive", action="store_true", help="of publishers with --strength the strongest alive")
-    _dds_options(s)
+    dds_options.options(s)
     return grammar
 
 
@@ -200,73 +201,6 @@ def _print_octets(octets: bytes) -> None:
     sys.stdout.buffer.flush()
 
 
-def _dds_options(command: argparse.ArgumentParser, topic: bool = True) -> None:
-    command.add_argument("--domain", type=int, default=0, metavar="N", help="DDS domain id, 0..230 (0)")
-    if topic:
-        command.add_argument("--topic", default=None, metavar="T", help="DDS topic name")
-    command.add_argument(
-        "--dds-config",
-        type=Path,
-        metavar="F.xml",
-        help="Cyclone DDS configuration; without it, the loopback interface only",
-    )
-    command.add_argument(
-        "--security", type=Path, metavar="FOLDER", help="DDS Security with the files that `ins keys` made there"
-    )
-
-
-def _dds_module(options: argparse.Namespace) -> tuple[Any, str | None]:
-    """The extension, and the text of --dds-config. Raises UsageError."""
-    try:
-        from libins import _dds
-    except ImportError as error:
-        raise UsageError("this build has no DDS: install cyclonedds-dev and build with INS_BUILD_DDS=ON") from error
-    if not 0 <= options.domain <= 230:
-        raise UsageError(f"--domain {options.domain}: must lie in 0 .. 230")
-    if options.dds_config is None:
-        return _dds, None
-    try:
-        return _dds, options.dds_config.read_text(encoding="utf-8")
-    except OSError as error:
-        raise UsageError(f"{options.dds_config}: cannot be read: {error.strerror}") from error
-
-
-def _security(options: argparse.Namespace) -> str | None:
-    return None if options.security is None else str(options.security)
-
-
-def open_dds(options: argparse.Namespace, publishes: bool, exclusive: bool = False, solution: bool = False) -> Any:
-    """A DDS handle from the command line's options, for states, or for solutions. Raises UsageError."""
-    _dds, xml = _dds_module(options)
-    try:
-        topic = options.topic or (_dds.SOLUTION_TOPIC if solution else _dds.TOPIC)
-        return _dds.Handle(options.domain, topic, xml, publishes, exclusive, _security(options), solution)
-    except RuntimeError as error:
-        raise UsageError(f"DDS: {error}") from error
-
-
-def open_raw(options: argparse.Namespace) -> Any:
-    """Topics as octets, from the command line's options; with --ros on ROS_DOMAIN_ID. Raises UsageError."""
-    if options.ros and (ros := os.environ.get("ROS_DOMAIN_ID")):
-        if not ros.isdigit():
-            raise UsageError(f"ROS_DOMAIN_ID is '{ros}': must be a number, or not set")
-        options.domain = int(ros)
-    _dds, xml = _dds_module(options)
-    try:
-        return _dds.Raw(options.domain, xml, _security(options))
-    except RuntimeError as error:
-        raise UsageError(f"DDS: {error}") from error
-
-
-def _open_ros(options: argparse.Namespace) -> Any:
-    _dds, xml = _dds_module(options)
-    domain = None if os.environ.get("ROS_DOMAIN_ID") else options.domain
-    try:
-        return _dds.Node(options.ros, domain, xml, _security(options))
-    except RuntimeError as error:
-        raise UsageError(f"ROS: {error}") from error
-
-
 def _speed(text: str | None) -> float | None:
     if text is None or text == "max":
         return None
@@ -296,8 +230,14 @@ def _run_command(options: argparse.Namespace) -> int:
         raise UsageError(f"--serial: {options.scenario} makes {len(runs)} runs; choose one with --set and --firmware")
     results: list[tuple[str, run.Result]] = []
     with contextlib.ExitStack() as opened:
-        handle = opened.enter_context(contextlib.closing(open_dds(options, publishes=True))) if options.dds else None
-        node = opened.enter_context(contextlib.closing(_open_ros(options))) if options.ros is not None else None
+        handle = (
+            opened.enter_context(contextlib.closing(dds_options.open_dds(options, publishes=True)))
+            if options.dds
+            else None
+        )
+        node = (
+            opened.enter_context(contextlib.closing(dds_options.open_ros(options))) if options.ros is not None else None
+        )
         for number, loaded in enumerate(runs, start=1):
             result = _run_one(loaded, options, (handle, node), number if len(runs) > 1 else None)
             results.append((loaded.name, result))
@@ -410,7 +350,7 @@ def navd_path(name: str = "ins-navd") -> Path:
 
 
 def _sub_command(options: argparse.Namespace) -> int:
-    handle = open_dds(options, publishes=False, exclusive=options.exclusive, solution=options.solution)
+    handle = dds_options.open_dds(options, publishes=False, exclusive=options.exclusive, solution=options.solution)
     count = 0
     gone: set[str] = set()
     last = time.monotonic()

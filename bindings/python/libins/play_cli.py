@@ -111,7 +111,7 @@ def run(args: argparse.Namespace) -> int:
         from libins.recording_mcap import Recording
     except ImportError as error:
         raise UsageError(f"ins play: {error.name} is missing; pip install 'libins[record]'") from error
-    from libins.cli import open_raw
+    from libins.dds_options import open_raw
 
     speed = speed_of(args.speed)
     with Recording(args.file) as recording, contextlib.closing(open_raw(args)) as handle:

@@ -118,7 +118,7 @@ def run(args: argparse.Namespace) -> int:
         from libins.recorder import Recorder
     except ImportError as error:
         raise UsageError(f"ins record: {error.name} is missing; pip install 'libins[record]'") from error
-    from libins.cli import open_raw
+    from libins.dds_options import open_raw
 
     with contextlib.closing(open_raw(args)) as handle:
         recorder = Recorder(args.file, args.compression)

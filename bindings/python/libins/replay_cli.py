@@ -108,7 +108,7 @@ def _page() -> Any:
 
 
 def _dds(args: argparse.Namespace) -> Any:
-    from libins.cli import open_dds
+    from libins.dds_options import open_dds
 
     return open_dds(args, publishes=True, solution=True)
 

@@ -25,8 +25,8 @@ namespace
 class Handle
 {
   public:
-    Handle(uint32_t domain, const std::string& topic, const std::optional<std::string>& xml, bool publishes,
-           bool exclusive, const std::optional<std::string>& security, bool solution)
+    Handle(uint32_t domain, const std::string& topic, const OptionalText& xml, bool publishes, bool exclusive,
+           const OptionalText& security, bool solution, const OptionalText& interface, const OptionalText& peers)
         : solution_(solution)
     {
         const Security files(security);
@@ -35,8 +35,7 @@ class Handle
         cfg.domain = domain;
         cfg.topic = topic.c_str();
         cfg.kind = solution ? INS_DDS_SOLUTION : INS_DDS_STATE;
-        cfg.network = xml ? INS_DDS_XML : INS_DDS_LOOPBACK;
-        cfg.xml = xml ? xml->c_str() : nullptr;
+        choose_network(cfg, xml, interface, peers);
         cfg.publishes = publishes ? 1 : 0;
         cfg.subscribes = publishes ? 0 : 1;
         cfg.history = publishes ? cfg.history : 256;
@@ -76,16 +75,15 @@ class Handle
 class Node
 {
   public:
-    Node(const std::string& name_space, const std::optional<uint32_t>& domain, const std::optional<std::string>& xml,
-         const std::optional<std::string>& security)
+    Node(const std::string& name_space, const std::optional<uint32_t>& domain, const OptionalText& xml,
+         const OptionalText& security, const OptionalText& interface, const OptionalText& peers)
     {
         const Security files(security);
         ins_ros_config_t cfg;
         ins_ros_config_default(&cfg);
         cfg.dds.domain = domain.value_or(INS_ROS_DOMAIN_ENV);
         cfg.name_space = name_space.c_str();
-        cfg.dds.network = xml ? INS_DDS_XML : INS_DDS_LOOPBACK;
-        cfg.dds.xml = xml ? xml->c_str() : nullptr;
+        choose_network(cfg.dds, xml, interface, peers);
         cfg.dds.security = files.get();
         int status = ins_ros_open(&cfg, &self_);
         if (status == INS_DDS_E_DOMAIN)
@@ -208,10 +206,10 @@ NB_MODULE(_dds, m)
     m.attr("SOLUTION_TOPIC") = INS_DDS_SOLUTION_TOPIC;
     bind_raw(m);
     nb::class_<Handle>(m, "Handle")
-        .def(nb::init<uint32_t, const std::string&, const std::optional<std::string>&, bool, bool,
-                      const std::optional<std::string>&, bool>(),
+        .def(nb::init<uint32_t, const std::string&, const OptionalText&, bool, bool, const OptionalText&, bool,
+                      const OptionalText&, const OptionalText&>(),
              "domain"_a, "topic"_a, "xml"_a.none(), "publishes"_a, "exclusive"_a = false, "security"_a = nb::none(),
-             "solution"_a = false)
+             "solution"_a = false, "interface"_a = nb::none(), "peers"_a = nb::none())
         .def("publish", publish, "state"_a, "source"_a, "published_ns"_a)
         .def("publish_solution", publish_solution, "index"_a, "t_s"_a, "q_nb"_a, "euler_rad"_a, "lat_lon_rad"_a,
              "v_en_m_s"_a, "fix_age_s"_a, "source"_a, "published_ns"_a)
@@ -219,9 +217,10 @@ NB_MODULE(_dds, m)
         .def("matched", [](const Handle& self) { return checked(ins_dds_matched(self.get())); })
         .def("close", &Handle::close);
     nb::class_<Node>(m, "Node")
-        .def(nb::init<const std::string&, const std::optional<uint32_t>&, const std::optional<std::string>&,
-                      const std::optional<std::string>&>(),
-             "name_space"_a, "domain"_a.none(), "xml"_a.none(), "security"_a = nb::none())
+        .def(nb::init<const std::string&, const std::optional<uint32_t>&, const OptionalText&, const OptionalText&,
+                      const OptionalText&, const OptionalText&>(),
+             "name_space"_a, "domain"_a.none(), "xml"_a.none(), "security"_a = nb::none(), "interface"_a = nb::none(),
+             "peers"_a = nb::none())
         .def("publish", publish_ros, "state"_a, "time_ns"_a)
         .def("close", &Node::close);
 }

@@ -9,11 +9,28 @@
 #include <stdexcept>
 #include <string>
 
+using OptionalText = std::optional<std::string>;
+
+inline const char* c_text(const OptionalText& text)
+{
+    return text ? text->c_str() : nullptr;
+}
+
+/// Which network, of the texts given at most one of xml and interface.
+inline void choose_network(ins_dds_config_t& cfg, const OptionalText& xml, const OptionalText& interface,
+                           const OptionalText& peers)
+{
+    cfg.network = xml ? INS_DDS_XML : interface ? INS_DDS_INTERFACE : INS_DDS_LOOPBACK;
+    cfg.xml = c_text(xml);
+    cfg.interface = c_text(interface);
+    cfg.peers = c_text(peers);
+}
+
 /// The files of a folder that `ins keys` made.
 class Security
 {
   public:
-    explicit Security(const std::optional<std::string>& folder) : used(folder.has_value())
+    explicit Security(const OptionalText& folder) : used(folder.has_value())
     {
         if (folder && ins_dds_security_folder(folder->c_str(), &files, memory.data()) != INS_DDS_OK)
         {

@@ -21,14 +21,14 @@ using Text = char[INS_DDS_RAW_NAME + 1];
 class Raw
 {
   public:
-    Raw(uint32_t domain, const std::optional<std::string>& xml, const std::optional<std::string>& security)
+    Raw(uint32_t domain, const OptionalText& xml, const OptionalText& security, const OptionalText& interface,
+        const OptionalText& peers)
     {
         const Security files(security);
         ins_dds_config_t cfg;
         ins_dds_config_default(&cfg);
         cfg.domain = domain;
-        cfg.network = xml ? INS_DDS_XML : INS_DDS_LOOPBACK;
-        cfg.xml = xml ? xml->c_str() : nullptr;
+        choose_network(cfg, xml, interface, peers);
         cfg.security = files.get();
         checked(ins_dds_raw_open(&cfg, &self_));
     }
@@ -145,8 +145,8 @@ void bind_raw(nb::module_& m)
           "exclusive"_a = false, "strength"_a = 0, "deadline_s"_a = 0.0);
     m.def("raw_types", types);
     nb::class_<Raw>(m, "Raw")
-        .def(nb::init<uint32_t, const std::optional<std::string>&, const std::optional<std::string>&>(), "domain"_a,
-             "xml"_a.none(), "security"_a = nb::none())
+        .def(nb::init<uint32_t, const OptionalText&, const OptionalText&, const OptionalText&, const OptionalText&>(),
+             "domain"_a, "xml"_a.none(), "security"_a = nb::none(), "interface"_a = nb::none(), "peers"_a = nb::none())
         .def("found", found)
         .def("subscribe", [](Raw& self, const Topic& t) { return checked(ins_dds_raw_subscribe(self.get(), &t)); })
         .def("publish", [](Raw& self, const Topic& t) { return checked(ins_dds_raw_publish(self.get(), &t)); })

@@ -2,20 +2,67 @@
 /// \brief  The part of a DDS domain that a handle owns: the domain itself, a participant in it, and Cyclone's log.
 /// SPDX-License-Identifier: MIT
 #include "dds_internal.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// Loopback only, no multicast, up to 61 processes of a domain on one machine. MaxAutoParticipantIndex is also the number of ports
-/// that discovery tries, hence not larger.
-static const char loopback_xml[] =
-    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
-    "<AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>"
-    "<MaxAutoParticipantIndex>60</MaxAutoParticipantIndex><Peers><Peer "
-    "address=\"127.0.0.1\"/></Peers></Discovery></Domain>"
-    "</CycloneDDS>";
+#define XML_MAX       8192
+#define INTERFACE_MAX 15 ///< octets of an interface's name, IFNAMSIZ - 1
+#define PEERS_MAX     1024
 
 #define MAX_BLOCKING                                                                                                   \
     DDS_MSECS(100) ///< what a write may wait for room; with KEEP_LAST it replaces the oldest sample instead
+
+/// Up to 61 processes of a domain on one machine. MaxAutoParticipantIndex is also the number of ports that discovery tries at each
+/// peer, hence not larger.
+static const char discovery_xml[] = "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+                                    "<MaxAutoParticipantIndex>60</MaxAutoParticipantIndex>";
+
+/// One interface; with peers, these and no multicast. \param[out] xml [XML_MAX]
+static void interface_xml(const char* name, const char* peers, char* xml)
+{
+    size_t at =
+        (size_t)snprintf(xml, XML_MAX,
+                         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"%s\"%s/></Interfaces>"
+                         "%s</General>%s",
+                         name, peers != NULL ? " multicast=\"false\"" : "",
+                         peers != NULL ? "<AllowMulticast>false</AllowMulticast>" : "", discovery_xml);
+    if (peers != NULL)
+    {
+        at += (size_t)snprintf(xml + at, XML_MAX - at, "<Peers>");
+        for (size_t length; *peers != '\0'; peers += length + (peers[length] == ','))
+        {
+            length = strcspn(peers, ",");
+            at += (size_t)snprintf(xml + at, XML_MAX - at, "<Peer address=\"%.*s\"/>", (int)length, peers);
+        }
+        at += (size_t)snprintf(xml + at, XML_MAX - at, "</Peers>");
+    }
+    (void)snprintf(xml + at, XML_MAX - at, "</Discovery></Domain></CycloneDDS>");
+}
+
+/// Names and addresses alone, so that nothing in them is XML.
+static int check_interface(const ins_dds_config_t* cfg)
+{
+    static const char of_names[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.:";
+    const char* name = cfg->interface;
+    if (name == NULL || name[0] == '\0' || strlen(name) > INTERFACE_MAX || name[strspn(name, of_names)] != '\0')
+    {
+        return dds_fail(INS_DDS_E_ARGUMENT, "DDS interface '%.32s': `ip link` tells the names of this machine's",
+                        name != NULL ? name : "");
+    }
+    for (const char* peer = cfg->peers; peer != NULL;)
+    {
+        const size_t length = strspn(peer, of_names);
+        if (length == 0 || (peer[length] != ',' && peer[length] != '\0') || strlen(peer) > PEERS_MAX)
+        {
+            return dds_fail(INS_DDS_E_ARGUMENT,
+                            "DDS peers '%.64s': must be addresses or host names, commas between, at most %d octets",
+                            cfg->peers, PEERS_MAX);
+        }
+        peer = peer[length] == ',' ? peer + length + 1 : NULL;
+    }
+    return INS_DDS_OK;
+}
 
 static int check(const ins_dds_config_t* cfg)
 {
@@ -24,7 +71,7 @@ static int check(const ins_dds_config_t* cfg)
         return dds_fail(INS_DDS_E_ARGUMENT, "DDS domain id %u is out of range: use 0 to %d", (unsigned)cfg->domain,
                         INS_DDS_DOMAIN_MAX);
     }
-    if (cfg->network < INS_DDS_LOOPBACK || cfg->network > INS_DDS_JOIN)
+    if (cfg->network < INS_DDS_LOOPBACK || cfg->network > INS_DDS_INTERFACE)
     {
         return dds_fail(INS_DDS_E_ARGUMENT, "unknown kind of DDS network configuration: %d", cfg->network);
     }
@@ -51,7 +98,7 @@ static int check(const ins_dds_config_t* cfg)
     {
         return dds_fail(INS_DDS_E_ARGUMENT, "the DDS history must be 1 to 100000 samples");
     }
-    return INS_DDS_OK;
+    return cfg->network == INS_DDS_INTERFACE ? check_interface(cfg) : INS_DDS_OK;
 }
 
 int dds_refused(const dds_place_t* self, const char* what, dds_return_t code)
@@ -67,7 +114,10 @@ int dds_refused(const dds_place_t* self, const char* what, dds_return_t code)
 
 static int create_domain(dds_place_t* self, const ins_dds_config_t* cfg)
 {
-    const char* xml = loopback_xml;
+    char made[XML_MAX];
+    const char* xml = made;
+    const int asked = cfg->network == INS_DDS_INTERFACE;
+    interface_xml(asked ? cfg->interface : "lo", asked ? cfg->peers : "127.0.0.1", made);
     xml = cfg->network == INS_DDS_XML ? cfg->xml : xml;
     xml = cfg->network == INS_DDS_ENVIRONMENT ? getenv("CYCLONEDDS_URI") : xml;
     const dds_entity_t domain = dds_create_domain(cfg->domain, xml);

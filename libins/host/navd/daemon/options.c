@@ -46,6 +46,8 @@ static const char* const help =
     "only\n"
     "      --dds-config FILE     Cyclone DDS configuration (XML) in place of loopback\n"
     "      --dds-env             configuration from CYCLONEDDS_URI in place of loopback\n"
+    "      --dds-interface IF    network interface in place of loopback, by multicast\n"
+    "      --dds-peer ADDR[,...] on --dds-interface: these are asked, nothing is multicast\n"
     "      --topic NAME          libins/nav_state, with --input nav libins/nav_solution\n"
     "      --partition NAME      none\n"
     "      --strength N          of several daemons of one source only the strongest alive is heard; 0: all are\n"
@@ -83,6 +85,8 @@ enum
     O_DDS,
     O_DDS_CONFIG,
     O_DDS_ENV,
+    O_DDS_INTERFACE,
+    O_DDS_PEER,
     O_STRENGTH,
     O_LEASE,
     O_SECURITY,
@@ -116,6 +120,8 @@ static const struct option known[] = {
     {"dds", optional_argument, NULL, O_DDS},
     {"dds-config", required_argument, NULL, O_DDS_CONFIG},
     {"dds-env", no_argument, NULL, O_DDS_ENV},
+    {"dds-interface", required_argument, NULL, O_DDS_INTERFACE},
+    {"dds-peer", required_argument, NULL, O_DDS_PEER},
     {"strength", required_argument, NULL, O_STRENGTH},
     {"security", required_argument, NULL, O_SECURITY},
     {"lease-s", required_argument, NULL, O_LEASE},
@@ -341,6 +347,12 @@ static int take(options_t* o, int code, const char* text)
     case O_DDS_ENV:
         o->dds_environment = 1;
         break;
+    case O_DDS_INTERFACE:
+        o->dds_interface = text;
+        break;
+    case O_DDS_PEER:
+        o->dds_peers = text;
+        break;
     case O_STRENGTH:
         good = whole(code, text, 0, INT32_MAX, &n);
         o->strength = (int32_t)n;
@@ -413,13 +425,15 @@ static const char* problem(const options_t* o)
     {
         return "--topic, --partition, --strength and --lease-s want --dds";
     }
-    if (!o->dds && o->ros == NULL && (o->dds_config != NULL || o->dds_environment || o->security != NULL))
+    if (!o->dds && o->ros == NULL &&
+        (o->dds_config != NULL || o->dds_environment || o->dds_interface != NULL || o->security != NULL))
     {
-        return "--dds-config, --dds-env and --security want --dds or --ros";
+        return "--dds-config, --dds-env, --dds-interface and --security want --dds or --ros";
     }
-    if (o->dds_config != NULL && o->dds_environment)
+    const char* const wrong = options_network_problem(o);
+    if (wrong != NULL)
     {
-        return "--dds-config and --dds-env exclude each other";
+        return wrong;
     }
     return ins_nav_config_problem(&o->nav);
 }

@@ -25,9 +25,11 @@ typedef struct options_t
     const char* json; ///< file, "-" = standard output, NULL = none
     int dds;          ///< 1: publish
     uint32_t domain;
-    const char* dds_config; ///< XML file, NULL = loopback
-    int dds_environment;    ///< 1: configuration from CYCLONEDDS_URI
-    const char* topic;      ///< NULL = the default
+    const char* dds_config;    ///< XML file, NULL = loopback
+    int dds_environment;       ///< 1: configuration from CYCLONEDDS_URI
+    const char* dds_interface; ///< NULL = loopback
+    const char* dds_peers;     ///< on dds_interface, commas between; NULL = multicast
+    const char* topic;         ///< NULL = the default
     const char* partition;
     int32_t strength;     ///< of exclusive ownership, 0 = shared
     double lease_s;       ///< of liveliness, 0 = the default
@@ -38,6 +40,16 @@ typedef struct options_t
     double timeout_s; ///< 0 = none
     int quiet;
 } options_t;
+
+/// \return NULL, or what is wrong with the choice of network.
+static inline const char* options_network_problem(const options_t* o)
+{
+    if ((o->dds_config != NULL) + o->dds_environment + (o->dds_interface != NULL) > 1)
+    {
+        return "--dds-config, --dds-env and --dds-interface exclude each other";
+    }
+    return o->dds_peers != NULL && o->dds_interface == NULL ? "--dds-peer wants --dds-interface" : NULL;
+}
 
 /// \return -1 to go on, else the exit code: 0 after --help or --version, 2 after a message about what is wrong.
 int options_parse(int argc, char** argv, options_t* options);

@@ -70,6 +70,8 @@ static int open_both(publisher_t* self, const options_t* options, ins_dds_config
     ros.dds.domain = options->dds && (domain == NULL || domain[0] == '\0') ? cfg->domain : ros.dds.domain;
     ros.dds.network = cfg->network;
     ros.dds.xml = cfg->xml;
+    ros.dds.interface = cfg->interface;
+    ros.dds.peers = cfg->peers;
     ros.dds.security = cfg->security;
     ros.dds.log = cfg->log;
     ros.dds.log_context = cfg->log_context;
@@ -93,7 +95,11 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
     cfg.partition = options->partition;
     cfg.strength = options->strength;
     cfg.lease_s = options->lease_s > 0.0 ? options->lease_s : cfg.lease_s;
-    cfg.network = options->dds_environment ? INS_DDS_ENVIRONMENT : INS_DDS_LOOPBACK;
+    cfg.network = options->dds_environment         ? INS_DDS_ENVIRONMENT
+                  : options->dds_interface != NULL ? INS_DDS_INTERFACE
+                                                   : INS_DDS_LOOPBACK;
+    cfg.interface = options->dds_interface;
+    cfg.peers = options->dds_peers;
     cfg.log = log_line;
     cfg.log_context = (void*)(uintptr_t)options; // only read
     if (options->dds_config != NULL)

@@ -41,6 +41,8 @@ static const char* const help =
     "      --dds[=DOMAIN]        publish libins::NavSolution; domain 0, loopback only\n"
     "      --dds-config FILE     Cyclone DDS configuration (XML) in place of loopback\n"
     "      --dds-env             configuration from CYCLONEDDS_URI in place of loopback\n"
+    "      --dds-interface IF    network interface in place of loopback, by multicast\n"
+    "      --dds-peer ADDR[,...] on --dds-interface: these are asked, nothing is multicast\n"
     "      --topic NAME          libins/nav_solution\n"
     "      --partition NAME      none\n"
     "      --source ID           key of what is published; ins-gpsdr\n"
@@ -67,6 +69,8 @@ enum
     O_DDS,
     O_DDS_CONFIG,
     O_DDS_ENV,
+    O_DDS_INTERFACE,
+    O_DDS_PEER,
     O_TOPIC,
     O_PARTITION,
     O_SOURCE
@@ -92,6 +96,8 @@ static const struct option known[] = {
     {"dds", optional_argument, NULL, O_DDS},
     {"dds-config", required_argument, NULL, O_DDS_CONFIG},
     {"dds-env", no_argument, NULL, O_DDS_ENV},
+    {"dds-interface", required_argument, NULL, O_DDS_INTERFACE},
+    {"dds-peer", required_argument, NULL, O_DDS_PEER},
     {"topic", required_argument, NULL, O_TOPIC},
     {"partition", required_argument, NULL, O_PARTITION},
     {"source", required_argument, NULL, O_SOURCE},
@@ -213,6 +219,12 @@ static int take_shared(gpsdr_options_t* o, int code, const char* text)
     case O_DDS_ENV:
         s->dds_environment = 1;
         break;
+    case O_DDS_INTERFACE:
+        s->dds_interface = text;
+        break;
+    case O_DDS_PEER:
+        s->dds_peers = text;
+        break;
     case O_TOPIC:
         s->topic = text;
         break;
@@ -250,13 +262,15 @@ static const char* problem(const gpsdr_options_t* o)
     {
         return "--baud, --gps-baud: not a rate of this system; use 4800, 9600, 19200, 38400, 57600, 115200 or 230400";
     }
-    if (!s->dds && (s->dds_config != NULL || s->dds_environment || s->topic != NULL || s->partition != NULL))
+    if (!s->dds && (s->dds_config != NULL || s->dds_environment || s->dds_interface != NULL || s->topic != NULL ||
+                    s->partition != NULL))
     {
-        return "--dds-config, --dds-env, --topic and --partition want --dds";
+        return "--dds-config, --dds-env, --dds-interface, --topic and --partition want --dds";
     }
-    if (s->dds_config != NULL && s->dds_environment)
+    const char* const wrong = options_network_problem(s);
+    if (wrong != NULL)
     {
-        return "--dds-config and --dds-env exclude each other";
+        return wrong;
     }
     if (o->display && s->json != NULL && strcmp(s->json, "-") == 0)
     {

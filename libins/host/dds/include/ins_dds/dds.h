@@ -49,7 +49,8 @@ enum
     INS_DDS_LOOPBACK = 0,    ///< built in: interface lo, no multicast
     INS_DDS_XML = 1,         ///< the text in cfg.xml
     INS_DDS_ENVIRONMENT = 2, ///< the environment variable CYCLONEDDS_URI, which must be set
-    INS_DDS_JOIN = 3         ///< the process already has the domain; it is left alone on close
+    INS_DDS_JOIN = 3,        ///< the process already has the domain; it is left alone on close
+    INS_DDS_INTERFACE = 4    ///< cfg.interface, and cfg.peers where multicast does not pass
 };
 
 /// DDS Security 1.1: who we are, and who may do what. Paths of files; `ins keys` makes them (docs/dds_security.md).
@@ -68,6 +69,10 @@ typedef struct ins_dds_config_t
     uint32_t domain;       ///< 0..INS_DDS_DOMAIN_MAX
     int network;           ///< INS_DDS_LOOPBACK ...
     const char* xml;       ///< with INS_DDS_XML: a CycloneDDS XML document (text, not a file name)
+    const char* interface; ///< with INS_DDS_INTERFACE: its name, such as "eth0"
+    /// With INS_DDS_INTERFACE: addresses or host names, commas between, that are asked instead of multicasting; NULL: multicast. For
+    /// other processes of this machine name its own address too.
+    const char* peers;
     int kind;              ///< INS_DDS_STATE or INS_DDS_SOLUTION
     const char* topic;     ///< topic name; NULL = the usual one of the kind
     const char* partition; ///< NULL = the default partition
