@@ -6,6 +6,7 @@ pip install cyclonedds; python subscribe.py [DOMAIN [COUNT]]
 
 import sys
 from dataclasses import dataclass
+from math import degrees, sqrt
 
 from cyclonedds.core import Policy, Qos
 from cyclonedds.domain import Domain, DomainParticipant
@@ -18,6 +19,8 @@ LOOPBACK = """<CycloneDDS><Domain><General><Interfaces><NetworkInterface name="l
 <AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto</ParticipantIndex>
 <MaxAutoParticipantIndex>60</MaxAutoParticipantIndex><Peers><Peer address="127.0.0.1"/></Peers></Discovery>
 </Domain></CycloneDDS>"""
+
+POSITION, COVARIANCE = 0x20, 0x80  # bits of valid: ins_nav/navigation.h
 
 
 # As in share/libins/idl/libins.idl, which has the units. A layout that differs gets no samples: DDS compares the types.
@@ -39,11 +42,18 @@ class NavState(IdlStruct, typename="libins.NavState"):
     source: types.bounded_str[63]
     annotations.key("source")
     published_ns: types.int64
+    time_ns: types.int64
+    time_base: types.uint32
+    valid: types.uint32
     index: types.uint64
     t_s: types.float64
     q_nb: types.array[types.float64, 4]
     euler_rad: types.array[types.float64, 3]
     w_ib_b: types.array[types.float64, 3]
+    f_b: types.array[types.float64, 3]
+    v_n: types.array[types.float64, 3]
+    llh: types.array[types.float64, 3]
+    P: types.array[types.float64, 45]
     dtheta_b: types.array[types.float64, 3]
     seq: types.uint32
     bridged: types.uint32
@@ -61,7 +71,12 @@ participant = DomainParticipant(domain)
 reader = DataReader(participant, Topic(participant, "libins/nav_state", NavState), qos=qos)
 for state in reader.take_iter(timeout=duration(seconds=10)):
     roll, pitch, yaw = state.euler_rad
-    print(f"{state.source} {state.index}: roll {roll:.6f} pitch {pitch:.6f} yaw {yaw:.6f} rad", flush=True)
+    place = ""
+    if state.valid & POSITION:
+        latitude, longitude = map(degrees, state.llh[:2])
+        sigma = f" +- {sqrt(max(state.P[39], state.P[42])):.2f} m" if state.valid & COVARIANCE else ""
+        place = f", {latitude:.7f} {longitude:.7f} deg{sigma}"
+    print(f"{state.source} {state.index}: roll {roll:.6f} pitch {pitch:.6f} yaw {yaw:.6f} rad{place}", flush=True)
     left -= 1
     if left == 0:
         break

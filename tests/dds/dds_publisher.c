@@ -20,7 +20,7 @@ int main(int argc, char** argv)
     ins_dds_t* dds;
     ins_dds_config_default(&cfg);
     cfg.domain = (uint32_t)strtoul(argv[1], NULL, 10);
-    cfg.history = 1000;
+    cfg.topic[INS_DDS_STATE].qos.history = 1000;
     if (ins_dds_open(&cfg, &dds) != INS_DDS_OK)
     {
         fprintf(stderr, "%s\n", ins_dds_error_text());
@@ -39,7 +39,13 @@ int main(int argc, char** argv)
         memset(&state, 0, sizeof state);
         state.index = k;
         state.q_nb[0] = 1.0 / (double)(k + 1);
-        failed = ins_dds_publish(dds, &state, argv[2], (int64_t)k) != INS_DDS_OK;
+        ins_navigation_t navigation;
+        ins_navigation_from_state(&state, (int64_t)k, &navigation);
+        navigation.valid |= INS_NAVIGATION_POSITION | INS_NAVIGATION_COVARIANCE;
+        navigation.llh[0] = 0.5;
+        navigation.llh[1] = -0.25;
+        navigation.P[7 * INS_NAVIGATION_P + 7] = 2.25;
+        failed = ins_dds_publish_navigation(dds, &state, &navigation, argv[2], (int64_t)k) != INS_DDS_OK;
     }
     (void)getchar();
     ins_dds_close(dds);

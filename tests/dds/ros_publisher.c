@@ -81,9 +81,15 @@ int main(int argc, char** argv)
     const int count = atoi(argv[3]);
     for (int k = 0; k < count; k++)
     {
-        ins_navigation_t n = {
-            1700000000123456789 + (int64_t)k * 10000000, 0xFF, {0}, {0.1, -0.2, 0.3}, {0.5, -0.6, -9.7}, {10, -3, 0.5},
-            {0.8 + 1e-5 * k, -1.9 + 1e-5 * k, 123.25},   {0}};
+        ins_navigation_t n = {1700000000123456789 + (int64_t)k * 10000000,
+                              INS_NAVIGATION_HOST,
+                              0xFF,
+                              {0},
+                              {0.1, -0.2, 0.3},
+                              {0.5, -0.6, -9.7},
+                              {10, -3, 0.5},
+                              {0.8 + 1e-5 * k, -1.9 + 1e-5 * k, 123.25},
+                              {0}};
         const double euler[3] = {0.1, -0.2, 2.5 + 0.01 * k};
         ins_quat_from_euler(euler, n.q_nb);
         covariance(n.P);

@@ -29,7 +29,7 @@ ins_dds_config_t config(int publishes, int subscribes)
     cfg.domain = domain();
     cfg.publishes = publishes;
     cfg.subscribes = subscribes;
-    cfg.history = 1000;
+    cfg.topic[INS_DDS_STATE].qos.history = 1000;
     return cfg;
 }
 
@@ -135,7 +135,7 @@ TEST(Dds, CarriesEveryFieldWithinAProcess)
 TEST(Dds, CarriesSolutionsWithEveryField)
 {
     ins_dds_config_t cfg = config(1, 1);
-    cfg.kind = INS_DDS_SOLUTION;
+    ins_dds_config_carry(&cfg, INS_DDS_SOLUTION);
     const Handle dds = open(cfg);
     ins_nav_solution_t want;
     std::memset(&want, 0, sizeof want);
@@ -160,16 +160,17 @@ TEST(Dds, CarriesSolutionsWithEveryField)
     EXPECT_STREQ(got[0].source, "dsp");
     EXPECT_EQ(got[0].published_ns, 77);
     EXPECT_EQ(std::memcmp(&got[0].solution, &want, sizeof want), 0);
-    const auto state = state_of(1);
-    EXPECT_EQ(ins_dds_publish(dds.get(), &state, "dsp", 0), INS_DDS_E_ARGUMENT);
-    EXPECT_NE(std::string(ins_dds_error_text()).find("cfg.kind was INS_DDS_SOLUTION"), std::string::npos);
+    const ins_dds_status_t status{};
+    EXPECT_EQ(ins_dds_publish_status(dds.get(), &status, "dsp", 0), INS_DDS_E_ARGUMENT);
+    EXPECT_NE(std::string(ins_dds_error_text()).find("not opened to publish libins/status"), std::string::npos);
 }
 
 TEST(Dds, DaemonPublishesTheSolutionsItPrints)
 {
     const size_t count = 100;
     ins_dds_config_t cfg = config(0, 1);
-    cfg.kind = INS_DDS_SOLUTION;
+    ins_dds_config_carry(&cfg, INS_DDS_SOLUTION);
+    cfg.topic[INS_DDS_STATE].name = nullptr;
     const Handle dds = open(cfg);
     Pty pty;
     Process navd({INS_NAVD, "--input", "nav", "--device", pty.path, "--dds=" + std::to_string(domain()), "--json", "-",
@@ -210,7 +211,7 @@ TEST(Dds, DaemonPublishesTheSolutionsItPrints)
 TEST(Dds, KeepsTheNewestOfEachSourceWhenTheReaderIsSlow)
 {
     ins_dds_config_t cfg = config(1, 1);
-    cfg.history = 3;
+    cfg.topic[INS_DDS_STATE].qos.history = 3;
     const Handle dds = open(cfg);
     for (uint64_t n = 0; n < 50; n++)
     {
@@ -241,7 +242,7 @@ TEST(Dds, LeavesNothingBehind)
     EXPECT_EQ(entries("/proc/self/task"), threads);
     EXPECT_EQ(entries("/proc/self/fd"), files);
     ins_dds_config_t bad = config(1, 0);
-    bad.topic = "no good";
+    bad.topic[INS_DDS_STATE].name = "no good";
     expect_refused(bad, INS_DDS_E_DDS, {"topic", "letters, digits"});
     EXPECT_EQ(entries("/proc/self/task"), threads) << "nor does a refused one";
     EXPECT_EQ(entries("/proc/self/fd"), files);
@@ -407,10 +408,12 @@ TEST(Dds, RefusesBadConfigurationsWithAReason)
     expect_refused(with([](auto& c) { c.domain = 231; }), INS_DDS_E_ARGUMENT, {"231", "0 to 230"});
     expect_refused(with([](auto& c) { c.network = 9; }), INS_DDS_E_ARGUMENT, {"9"});
     expect_refused(with([](auto& c) { c.publishes = c.subscribes = 0; }), INS_DDS_E_ARGUMENT, {"neither"});
-    expect_refused(with([](auto& c) { c.topic = ""; }), INS_DDS_E_ARGUMENT, {"topic name is empty", INS_DDS_TOPIC});
-    expect_refused(with([](auto& c) { c.deadline_s = std::nan(""); }), INS_DDS_E_ARGUMENT, {"deadline"});
+    expect_refused(with([](auto& c) { c.topic[INS_DDS_STATE].name = ""; }), INS_DDS_E_ARGUMENT,
+                   {"topic name is empty", "libins/nav_state"});
+    expect_refused(with([](auto& c) { c.topic[INS_DDS_STATE].qos.deadline_s = std::nan(""); }), INS_DDS_E_ARGUMENT,
+                   {"deadline"});
     expect_refused(with([](auto& c) { c.lease_s = 0; }), INS_DDS_E_ARGUMENT, {"lease"});
-    expect_refused(with([](auto& c) { c.history = 0; }), INS_DDS_E_ARGUMENT, {"history"});
+    expect_refused(with([](auto& c) { c.topic[INS_DDS_STATE].qos.history = 0; }), INS_DDS_E_ARGUMENT, {"history"});
     expect_refused(xml(nullptr), INS_DDS_E_ARGUMENT, {"XML"});
     expect_refused(xml("file.xml"), INS_DDS_E_ARGUMENT, {"XML"});
     expect_refused(xml("<CycloneDDS><Oops"), INS_DDS_E_ARGUMENT, {"refused its configuration", "Oops"});

@@ -36,7 +36,7 @@ class Failover : public testing::Test
         cfg.domain = domain;
         cfg.publishes = 0;
         cfg.subscribes = 1;
-        cfg.history = 10;
+        cfg.topic[INS_DDS_STATE].qos.history = 10;
         cfg.strength = 1;
         ins_dds_t* opened = nullptr;
         ASSERT_EQ(ins_dds_open(&cfg, &opened), INS_DDS_OK) << ins_dds_error_text();

@@ -124,7 +124,7 @@ TEST(DdsRaw, OctetsThatAreTakenAndPublishedAgainAreTheSame)
     auto cfg = config(INS_DDS_JOIN);
     cfg.strength = 3;
     cfg.partition = "left";
-    cfg.history = COUNT;
+    cfg.topic[INS_DDS_STATE].qos.history = COUNT;
     const Dds source = open_dds(cfg);
     auto topics = found(raw.get(), 1);
     ins_dds_raw_topic_t topic = topics.at("libins/nav_state");
@@ -149,7 +149,7 @@ TEST(DdsRaw, OctetsThatAreTakenAndPublishedAgainAreTheSame)
     const int reader = ins_dds_raw_subscribe(raw.get(), &topic);
     ASSERT_GE(writer, 0) << ins_dds_error_text();
     ASSERT_GE(reader, 0) << ins_dds_error_text();
-    cfg.topic = "again";
+    cfg.topic[INS_DDS_STATE].name = "again";
     cfg.publishes = 0;
     cfg.subscribes = 1;
     const Dds sink = open_dds(cfg);

@@ -76,7 +76,7 @@ TEST(Ros, WrongNamesAreRefusedByName)
     expect_refused(cfg, "ROS topic 'gnss//fix'");
     cfg = config();
     cfg.topic[INS_ROS_TF].decimate = 0;
-    expect_refused(cfg, "/tf by 0");
+    expect_refused(cfg, "/tf is decimated by 0");
     cfg = config();
     cfg.gid_octets = 24;
     expect_refused(cfg, "16 octets");

@@ -53,6 +53,7 @@ def subscribed(command: list[object], **environment: str) -> list[str]:
 
 def expect_states(lines: list[str]) -> None:
     assert [line.split(":")[0] for line in lines] == [f"unit {k}" for k in range(STATES)]
+    assert all(line.endswith("28.6478898 -14.3239449 deg +- 1.50 m") for line in lines)
 
 
 def test_the_c_subscriber_is_built_by_find_package_and_hears(prefix: Path, tmp_path: Path) -> None:
@@ -66,7 +67,7 @@ def test_the_c_subscriber_is_built_by_find_package_and_hears(prefix: Path, tmp_p
 def test_the_c_subscriber_is_built_by_pkg_config(prefix: Path, tmp_path: Path) -> None:
     where = {"PKG_CONFIG_PATH": str(prefix / "lib/pkgconfig")}
     flags = run("pkg-config", "--cflags", "--libs", "libins_dds", **where).split()
-    run("gcc", *STRICT, EXAMPLES / "dds_subscribe_c/main.c", *flags, "-o", tmp_path / "subscribe")
+    run("gcc", *STRICT, EXAMPLES / "dds_subscribe_c/main.c", *flags, "-lm", "-o", tmp_path / "subscribe")
     expect_states(subscribed([tmp_path / "subscribe"], LD_LIBRARY_PATH=str(prefix / "lib")))
 
 

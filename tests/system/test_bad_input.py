@@ -150,11 +150,11 @@ def test_dds_without_any_network_interface():
 def test_a_domain_already_taken_in_this_process():
     from libins import _dds
 
-    first = _dds.Handle(78, _dds.TOPIC, None, True)
+    first = _dds.Handle(78, _dds.TOPICS["state"], None, True)
     with pytest.raises(RuntimeError, match="domain 78"):
-        _dds.Handle(78, _dds.TOPIC, None, False)
+        _dds.Handle(78, _dds.TOPICS["state"], None, False)
     first.close()
-    _dds.Handle(78, _dds.TOPIC, None, False).close()
+    _dds.Handle(78, _dds.TOPICS["state"], None, False).close()
 
 
 def test_nav_missing_device(ins):

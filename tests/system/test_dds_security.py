@@ -24,7 +24,7 @@ def pages():
     return int(open("/proc/self/statm").read().split()[1])
 seen = [pages()]
 for i in range({WARM_UP} + {CYCLES}):
-    _dds.Handle({DOMAIN} + 1, _dds.TOPIC, None, True, False, sys.argv[1]).close()
+    _dds.Handle({DOMAIN} + 1, _dds.TOPICS["state"], None, True, False, sys.argv[1]).close()
     seen.append(pages())
 print(seen[{WARM_UP}], seen[-1])
 """

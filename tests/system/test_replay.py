@@ -239,7 +239,7 @@ def test_published_over_dds(ins):
     heard = {}
 
     def listen():
-        done = ins("sub", "--solution", "--limit", "20", "--timeout-s", "60", "--domain", DOMAIN)
+        done = ins("sub", "--limit", "20", "--timeout-s", "60", "--domain", DOMAIN)
         heard["lines"] = [json.loads(line) for line in done.stdout.splitlines()]
 
     listener = threading.Thread(target=listen)
@@ -250,7 +250,8 @@ def test_published_over_dds(ins):
     assert len(heard["lines"]) == 20
     first, last = heard["lines"][0], heard["lines"][-1]
     assert first["source"] == "walk"
-    assert np.rad2deg(last["lat_lon_rad"][0]) == pytest.approx(40.0967, abs=1e-3)
+    assert np.rad2deg(last["navigation"]["llh"][0]) == pytest.approx(40.0967, abs=1e-3)
+    assert last["navigation"]["time_base"] == "gnss"
     assert last["index"] - first["index"] == 19
     assert last["t_s"] - first["t_s"] == pytest.approx(1.9, abs=0.05)
 

@@ -2,7 +2,6 @@
 
 import argparse
 import contextlib
-import json
 import os
 import sys
 import time
@@ -157,8 +156,16 @@ def parser() -> argparse.ArgumentParser:
     keys_cli.options(commands.add_parser("keys", help="make certificates and permissions for DDS Security"))
 
     s = commands.add_parser("sub", help="print navigation states that arrive over DDS, one line of JSON each")
-    s.add_argument("--solution", action="store_true", help="positions (NavSolution) instead of states (NavState)")
-    s.add_argument("--limit", type=int, metavar="N", help="stop after N states")
+    kinds = {
+        "solution": "what a navigating board says (NavSolution) instead of states (NavState)",
+        "status": "how far a source is to be believed (Status)",
+        "innovations": "measurements beside what a filter expected (Innovations)",
+        "raw-imu": "what the sensors said (RawImu)",
+    }
+    for kind, text in kinds.items():
+        s.add_argument(f"--{kind}", dest="kind", action="store_const", const=kind.replace("-", "_"), help=text)
+    s.set_defaults(kind="state")
+    s.add_argument("--limit", type=int, metavar="N", help="stop after N of them")
     s.add_argument("--timeout-s", type=float, metavar="S", help="exit 1 when nothing arrives for so long")
     s.add_argument("--exclusive", action="store_true", help="of publishers with --strength the strongest alive")
     dds_options.options(s)
@@ -350,7 +357,7 @@ def navd_path(name: str = "ins-navd") -> Path:
 
 
 def _sub_command(options: argparse.Namespace) -> int:
-    handle = dds_options.open_dds(options, publishes=False, exclusive=options.exclusive, solution=options.solution)
+    handle = dds_options.open_dds(options, publishes=False, exclusive=options.exclusive, kind=options.kind)
     count = 0
     gone: set[str] = set()
     last = time.monotonic()
@@ -359,8 +366,7 @@ def _sub_command(options: argparse.Namespace) -> int:
             for sample in handle.take(0.1):
                 last = time.monotonic()
                 if "json" in sample:
-                    head = json.dumps({"source": sample["source"], "published_ns": sample["published_ns"]})[:-1]
-                    print(f"{head}, {sample['json'].strip()[1:]}", flush=True)
+                    print(sample["json"], end="", flush=True)
                     count += 1
                 if sample["gone"] and sample["source"] not in gone:
                     print(f"{sample['source']}: its publisher has gone", file=sys.stderr)

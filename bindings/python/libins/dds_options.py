@@ -53,18 +53,18 @@ def _security(given: argparse.Namespace) -> str | None:
     return None if given.security is None else str(given.security)
 
 
-def open_dds(given: argparse.Namespace, publishes: bool, exclusive: bool = False, solution: bool = False) -> Any:
-    """A DDS handle from the command line's options, for states, or for solutions. Raises UsageError."""
+def open_dds(given: argparse.Namespace, publishes: bool, exclusive: bool = False, kind: str = "state") -> Any:
+    """A DDS handle from the command line's options, for one kind of messages. Raises UsageError."""
     _dds, network = _module(given)
     try:
-        topic = given.topic or (_dds.SOLUTION_TOPIC if solution else _dds.TOPIC)
+        topic = given.topic or _dds.TOPICS[kind]
         return _dds.Handle(
             given.domain,
             topic,
             publishes=publishes,
             exclusive=exclusive,
             security=_security(given),
-            solution=solution,
+            kind=kind,
             **network,
         )
     except RuntimeError as error:

@@ -8,7 +8,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
@@ -17,8 +16,6 @@ from libins.errors import UsageError
 from libins.schema import Document
 from libins.whole_file import write
 
-FIX_AGE_MAX_S = 25.5
-"""As NavSolution has it: that, or longer, or none."""
 FILES = ("csv", "kml", "geojson", "html", "json")
 
 
@@ -39,7 +36,7 @@ def options(parser: argparse.ArgumentParser) -> None:
     }
     for name, text in helps.items():
         parser.add_argument(f"--{name}", type=Path, metavar=f"F.{name}", help=text)
-    parser.add_argument("--dds", action="store_true", help="publish the solution as NavSolution, paced by --speed")
+    parser.add_argument("--dds", action="store_true", help="publish the solution as NavState, paced by --speed")
     parser.add_argument(
         "--speed", type=float, default=1.0, metavar="X", help="with --dds and --live: recorded seconds a second (1)"
     )
@@ -84,7 +81,7 @@ def run(args: argparse.Namespace) -> int:
         if str(places["json"]) != "-":
             print(replay_score.text(result))
         if handle is not None:
-            _publish(handle, solution.runs[0], args.config.stem, args.speed)
+            _publish(handle, solution.runs[0], args.config.stem, args.speed, drive.epoch_s, config.leap_s)
     finally:
         if handle is not None:
             handle.close()
@@ -110,25 +107,26 @@ def _page() -> Any:
 def _dds(args: argparse.Namespace) -> Any:
     from libins.dds_options import open_dds
 
-    return open_dds(args, publishes=True, solution=True)
+    return open_dds(args, publishes=True)
 
 
-def _publish(handle: Any, run_: Any, source: str, speed: float) -> None:
+def _publish(handle: Any, run_: Any, source: str, speed: float, epoch_s: float, leap_s: float) -> None:
     """Each state at its time."""
-    from libins import core
-    from libins.replay import CHECK, STATE
+    from libins import _dds
+    from libins.replay import STATE
 
-    states, checks = run_.states, run_.checks
-    used = checks[(checks[:, CHECK["withheld"]] == 0) & (checks[:, CHECK["refused"]] == 0), CHECK["t_s"]]
-    fix = np.searchsorted(used, states[:, 0], side="right") - 1
-    ages = np.where(fix >= 0, states[:, 0] - used[np.maximum(fix, 0)] if len(used) else np.inf, np.inf)
+    states = run_.states
     begin = time.monotonic()
-    for index, (state, age) in enumerate(zip(states.tolist(), np.minimum(ages, FIX_AGE_MAX_S).tolist(), strict=True)):
+    for index, state in enumerate(states.tolist()):
         wait = begin + (state[0] - states[0, 0]) / speed - time.monotonic()
         if wait > 0.0:
             time.sleep(wait)
-        q = state[STATE["q_w"] : STATE["q_z"] + 1]
-        v_en = [state[STATE["v_e_m_s"]], state[STATE["v_n_m_s"]]]
-        euler = core.quat_to_euler(q).tolist()
-        handle.publish_solution(index, state[0], q, euler, state[1:3], v_en, age, source, time.time_ns())
+        instant = _dds.Navigation(
+            round((epoch_s + state[0] - leap_s) * 1e9),
+            "gnss",
+            q_nb=state[STATE["q_w"] : STATE["q_z"] + 1],
+            v_n=state[STATE["v_n_m_s"] : STATE["v_d_m_s"] + 1],
+            llh=state[STATE["latitude_rad"] : STATE["height_m"] + 1],
+        )
+        handle.publish_navigation(instant, index, state[0], source, time.time_ns())
     print(f"dds       {len(states)} published", file=sys.stderr)

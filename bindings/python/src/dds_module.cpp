@@ -1,6 +1,7 @@
 /// \file   dds_module.cpp
 /// \brief  The Python module libins._dds: publisher and subscriber over libins_dds, ROS 2 topics. SPDX-License-Identifier: MIT
 #include "dds_module.hpp"
+#include "ins/quat.h"
 #include "ins_dds/dds.h"
 #include "ins_dds/ros.h"
 #include <algorithm>
@@ -22,23 +23,41 @@ using namespace nb::literals;
 namespace
 {
 
+const std::array<const char*, INS_DDS_KINDS> kinds = {"state",       "solution", "status",
+                                                      "innovations", "raw_imu",  "state_decimated"};
+
+#define TEXT(name, value, text) text,
+const std::array<const char*, 3> clocks = {INS_NAVIGATION_CLOCK_LIST(TEXT)};
+#undef TEXT
+
+template <size_t n> uint32_t number(const std::array<const char*, n>& names, const std::string& name)
+{
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+    {
+        throw std::invalid_argument("of these names it is none: " + name);
+    }
+    return static_cast<uint32_t>(found - names.begin());
+}
+
 class Handle
 {
   public:
     Handle(uint32_t domain, const std::string& topic, const OptionalText& xml, bool publishes, bool exclusive,
-           const OptionalText& security, bool solution, const OptionalText& interface, const OptionalText& peers)
-        : solution_(solution)
+           const OptionalText& security, const std::string& kind, const OptionalText& interface,
+           const OptionalText& peers)
     {
         const Security files(security);
         ins_dds_config_t cfg;
         ins_dds_config_default(&cfg);
         cfg.domain = domain;
-        cfg.topic = topic.c_str();
-        cfg.kind = solution ? INS_DDS_SOLUTION : INS_DDS_STATE;
+        cfg.topic[INS_DDS_STATE].name = nullptr;
+        ins_dds_topic_config_t& carried = cfg.topic[number(kinds, kind)];
+        carried.name = topic.c_str();
         choose_network(cfg, xml, interface, peers);
         cfg.publishes = publishes ? 1 : 0;
         cfg.subscribes = publishes ? 0 : 1;
-        cfg.history = publishes ? cfg.history : 256;
+        carried.qos.history = publishes ? carried.qos.history : std::max(carried.qos.history, uint32_t{256});
         cfg.strength = exclusive ? 1 : 0;
         cfg.security = files.get();
         if (ins_dds_open(&cfg, &self_) != INS_DDS_OK)
@@ -64,11 +83,8 @@ class Handle
         return self_;
     }
 
-    bool solution() const { return solution_; }
-
   private:
     ins_dds_t* self_ = nullptr;
-    bool solution_;
 };
 
 /// A ROS 2 node "libins". It joins the domain if a Handle of this process has it; then it must be closed first.
@@ -144,25 +160,61 @@ void publish_ros(Node& node, const nb::bytes& raw, int64_t time_ns)
     checked(ins_ros_publish(node.get(), &navigation));
 }
 
-/// A solution that no board sent: without a grid.
-void publish_solution(Handle& handle, uint64_t index, double t_s, const std::array<double, 4>& q_nb,
-                      const std::array<double, 3>& euler, const std::array<double, 2>& lat_lon,
-                      const std::array<double, 2>& v_en, double fix_age_s, const std::string& source,
-                      int64_t published_ns)
+template <size_t n> using Reals = std::optional<std::array<double, n>>;
+
+template <size_t n> uint32_t put(const Reals<n>& from, double* to, uint32_t bits)
 {
-    ins_nav_solution_t solution{};
-    solution.index = index;
-    solution.t_s = t_s;
-    std::copy(q_nb.begin(), q_nb.end(), solution.q_nb);
-    std::copy(euler.begin(), euler.end(), solution.euler_rad);
-    std::copy(lat_lon.begin(), lat_lon.end(), solution.lat_lon_rad);
-    std::copy(v_en.begin(), v_en.end(), solution.v_en_m_s);
-    solution.fix_age_s = fix_age_s;
-    solution.status = INS_NAV_BLOCK_ALIGNED | INS_NAV_BLOCK_POSITION | INS_NAV_BLOCK_FILTER;
-    checked(ins_dds_publish_solution(handle.get(), &solution, source.c_str(), published_ns));
+    if (!from)
+    {
+        return 0;
+    }
+    std::copy(from->begin(), from->end(), to);
+    return bits;
 }
 
-/// Samples as dictionaries: source, published_ns, gone, and the state as its line of JSON.
+/// What is given is valid. P: the upper triangle, row by row.
+ins_navigation_t navigation(int64_t time_ns, const std::string& clock, const Reals<4>& q_nb, const Reals<3>& w_ib_b,
+                            const Reals<3>& f_b, const Reals<3>& v_n, const Reals<3>& llh, const Reals<45>& P)
+{
+    ins_navigation_t to{};
+    to.time_ns = time_ns;
+    to.time_base = number(clocks, clock);
+    to.valid = put(q_nb, to.q_nb, INS_NAVIGATION_ATTITUDE) | put(w_ib_b, to.w_ib_b, INS_NAVIGATION_RATE) |
+               put(f_b, to.f_b, INS_NAVIGATION_FORCE) |
+               put(v_n, to.v_n, INS_NAVIGATION_VELOCITY | INS_NAVIGATION_VELOCITY_UP) |
+               put(llh, to.llh, INS_NAVIGATION_POSITION | INS_NAVIGATION_HEIGHT);
+    if (P)
+    {
+        to.valid |= INS_NAVIGATION_COVARIANCE;
+        const double* at = P->data();
+        for (size_t i = 0; i < INS_NAVIGATION_P; i++)
+        {
+            for (size_t j = i; j < INS_NAVIGATION_P; j++)
+            {
+                to.P[INS_NAVIGATION_P * i + j] = to.P[INS_NAVIGATION_P * j + i] = *at++;
+            }
+        }
+    }
+    return to;
+}
+
+void publish_navigation(Handle& handle, const ins_navigation_t& from, uint64_t index, double t_s,
+                        const std::string& source, int64_t published_ns)
+{
+    ins_nav_state_t state{};
+    state.index = index;
+    state.t_s = t_s;
+    ins_quat_to_euler(from.q_nb, state.euler_rad);
+    checked(ins_dds_publish_navigation(handle.get(), &state, &from, source.c_str(), published_ns));
+}
+
+/// What came over the network need not be UTF-8.
+nb::object text(const char* octets, size_t length)
+{
+    return nb::steal(PyUnicode_DecodeUTF8(octets, static_cast<Py_ssize_t>(length), "replace"));
+}
+
+/// Samples as dictionaries: source, published_ns, gone, and the sample as its line of JSON.
 nb::list take(Handle& handle, double timeout_s)
 {
     std::vector<ins_dds_sample_t> samples(64);
@@ -175,22 +227,14 @@ nb::list take(Handle& handle, double timeout_s)
     nb::list list;
     for (size_t i = 0; i < static_cast<size_t>(count); i++)
     {
-        std::array<char, INS_NAV_JSON_MAX> json{};
+        std::array<char, INS_DDS_JSON_MAX> json{};
         nb::dict d;
-        d["source"] = samples[i].source;
+        d["source"] = text(samples[i].source, std::strlen(samples[i].source));
         d["published_ns"] = samples[i].published_ns;
         d["gone"] = samples[i].gone != 0;
         if (samples[i].valid != 0)
         {
-            if (handle.solution())
-            {
-                ins_nav_solution_json(&samples[i].solution, json.data(), json.size());
-            }
-            else
-            {
-                ins_nav_state_json(&samples[i].state, json.data(), json.size());
-            }
-            d["json"] = json.data();
+            d["json"] = text(json.data(), ins_dds_sample_json(&samples[i], json.data(), json.size()));
         }
         list.append(d);
     }
@@ -202,17 +246,22 @@ nb::list take(Handle& handle, double timeout_s)
 NB_MODULE(_dds, m)
 {
     m.doc() = "Navigation states over DDS; see ins_dds/dds.h.";
-    m.attr("TOPIC") = INS_DDS_TOPIC;
-    m.attr("SOLUTION_TOPIC") = INS_DDS_SOLUTION_TOPIC;
     bind_raw(m);
+    nb::dict topics;
+#define TOPIC(name, topic, type) topics[kinds[name]] = topic;
+    INS_DDS_KIND_LIST(TOPIC)
+#undef TOPIC
+    m.attr("TOPICS") = topics;
+    nb::class_<ins_navigation_t>(m, "Navigation", "An instant; what is None is not known. See ins_nav/navigation.h.")
+        .def(nb::new_(&navigation), "time_ns"_a, "clock"_a = "host", "q_nb"_a = nb::none(), "w_ib_b"_a = nb::none(),
+             "f_b"_a = nb::none(), "v_n"_a = nb::none(), "llh"_a = nb::none(), "P"_a = nb::none());
     nb::class_<Handle>(m, "Handle")
-        .def(nb::init<uint32_t, const std::string&, const OptionalText&, bool, bool, const OptionalText&, bool,
-                      const OptionalText&, const OptionalText&>(),
+        .def(nb::init<uint32_t, const std::string&, const OptionalText&, bool, bool, const OptionalText&,
+                      const std::string&, const OptionalText&, const OptionalText&>(),
              "domain"_a, "topic"_a, "xml"_a.none(), "publishes"_a, "exclusive"_a = false, "security"_a = nb::none(),
-             "solution"_a = false, "interface"_a = nb::none(), "peers"_a = nb::none())
+             "kind"_a = "state", "interface"_a = nb::none(), "peers"_a = nb::none())
         .def("publish", publish, "state"_a, "source"_a, "published_ns"_a)
-        .def("publish_solution", publish_solution, "index"_a, "t_s"_a, "q_nb"_a, "euler_rad"_a, "lat_lon_rad"_a,
-             "v_en_m_s"_a, "fix_age_s"_a, "source"_a, "published_ns"_a)
+        .def("publish_navigation", publish_navigation, "navigation"_a, "index"_a, "t_s"_a, "source"_a, "published_ns"_a)
         .def("take", take, "timeout_s"_a)
         .def("matched", [](const Handle& self) { return checked(ins_dds_matched(self.get())); })
         .def("close", &Handle::close);
@@ -222,5 +271,7 @@ NB_MODULE(_dds, m)
              "name_space"_a, "domain"_a.none(), "xml"_a.none(), "security"_a = nb::none(), "interface"_a = nb::none(),
              "peers"_a = nb::none())
         .def("publish", publish_ros, "state"_a, "time_ns"_a)
+        .def("publish_navigation",
+             [](const Node& self, const ins_navigation_t& from) { checked(ins_ros_publish(self.get(), &from)); })
         .def("close", &Node::close);
 }

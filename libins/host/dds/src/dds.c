@@ -1,80 +1,107 @@
 /// \file   dds.c
-/// \brief  Domain, writer and reader of libins::NavState or libins::NavSolution on Cyclone DDS 0.10.
+/// \brief  Topics, writers and readers of idl/libins.idl on Cyclone DDS 0.10.
 /// SPDX-License-Identifier: MIT
 #include "dds_internal.h"
 #include <stdlib.h>
 #include <string.h>
 
+#define KIND(kind, usual, type) {usual, &libins_##type##_desc, sizeof(libins_##type)},
+static const struct
+{
+    const char* usual; ///< name of the topic
+    const dds_topic_descriptor_t* type;
+    size_t size;
+} kinds[INS_DDS_KINDS] = {INS_DDS_KIND_LIST(KIND)};
+#undef KIND
+
+void ins_dds_config_carry(ins_dds_config_t* cfg, ins_dds_kind_t kind)
+{
+    cfg->topic[kind].name = kinds[kind].usual;
+}
+
 void ins_dds_config_default(ins_dds_config_t* cfg)
 {
     memset(cfg, 0, sizeof *cfg);
     cfg->publishes = 1;
-    cfg->deadline_s = 1.0;
     cfg->lease_s = 1.0;
-    cfg->history = 16;
-}
-
-static const char* usual_topic(const ins_dds_config_t* cfg)
-{
-    return cfg->kind == INS_DDS_STATE ? INS_DDS_TOPIC : INS_DDS_SOLUTION_TOPIC;
+    for (int kind = 0; kind < INS_DDS_KINDS; kind++)
+    {
+        cfg->topic[kind].decimate = 1;
+        (void)ins_dds_qos_profile(kind == INS_DDS_STATUS ? "latched" : "default", &cfg->topic[kind].qos);
+    }
+    cfg->topic[INS_DDS_STATE_DECIMATED].decimate = 10;
+    ins_dds_config_carry(cfg, INS_DDS_STATE);
 }
 
 static int check(const ins_dds_config_t* cfg)
 {
-    if (cfg->kind != INS_DDS_STATE && cfg->kind != INS_DDS_SOLUTION)
+    int carried = 0;
+    for (int kind = 0; kind < INS_DDS_KINDS; kind++)
     {
-        return dds_fail(INS_DDS_E_ARGUMENT, "unknown kind of DDS messages: %d", cfg->kind);
+        if (cfg->topic[kind].name == NULL)
+        {
+            continue;
+        }
+        carried = 1;
+        const int status = dds_check_topic(&cfg->topic[kind], kinds[kind].usual);
+        if (status != INS_DDS_OK)
+        {
+            return status;
+        }
     }
-    if (cfg->topic != NULL && cfg->topic[0] == '\0')
+    if (!carried || (!cfg->publishes && !cfg->subscribes))
     {
-        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS topic name is empty: the usual one is %s", usual_topic(cfg));
-    }
-    if (!cfg->publishes && !cfg->subscribes)
-    {
-        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS configuration neither publishes nor subscribes");
+        return dds_fail(INS_DDS_E_ARGUMENT,
+                        "the DDS configuration neither publishes nor subscribes, or names no topic to do so");
     }
     return INS_DDS_OK;
 }
 
-static int create_entities(ins_dds_t* self, const ins_dds_config_t* cfg)
+static int create_reader(ins_dds_t* self, const ins_dds_config_t* cfg, int kind, dds_entity_t topic)
 {
-    self->topic = dds_create_topic(self->place.participant,
-                                   cfg->kind == INS_DDS_STATE ? &libins_NavState_desc : &libins_NavSolution_desc,
-                                   cfg->topic != NULL ? cfg->topic : usual_topic(cfg), NULL, NULL);
-    if (self->topic < 0)
+    dds_qos_t* qos = dds_quality(cfg, &cfg->topic[kind].qos, 0);
+    self->topic[kind].reader = dds_create_reader(self->place.participant, topic, qos, NULL);
+    dds_delete_qos(qos);
+    if (self->topic[kind].reader < 0)
     {
-        return dds_refused(&self->place, "topic (letters, digits, _ and / may make its name)", self->topic);
+        return dds_refused(&self->place, "reader", self->topic[kind].reader);
     }
+    const dds_entity_t condition = dds_create_readcondition(self->topic[kind].reader, DDS_ANY_STATE);
+    const dds_return_t attached = condition > 0 ? dds_waitset_attach(self->waitset, condition, condition) : condition;
+    return attached < 0 ? dds_refused(&self->place, "waitset", attached) : INS_DDS_OK;
+}
+
+static int create_topic(ins_dds_t* self, const ins_dds_config_t* cfg, int kind)
+{
+    const ins_dds_topic_config_t* const want = &cfg->topic[kind];
+    const dds_entity_t topic = dds_create_topic(self->place.participant, kinds[kind].type, want->name, NULL, NULL);
+    if (topic < 0)
+    {
+        return dds_refused(&self->place, "topic (letters, digits, _ and / may make its name)", topic);
+    }
+    self->topic[kind].decimate = want->decimate;
     if (cfg->publishes)
     {
-        dds_qos_t* qos = dds_quality(cfg, 1);
-        self->writer = dds_create_writer(self->place.participant, self->topic, qos, NULL);
+        dds_qos_t* qos = dds_quality(cfg, &want->qos, 1);
+        self->topic[kind].writer = dds_create_writer(self->place.participant, topic, qos, NULL);
         dds_delete_qos(qos);
-        if (self->writer < 0)
+        if (self->topic[kind].writer < 0)
         {
-            return dds_refused(&self->place, "writer", self->writer);
+            return dds_refused(&self->place, "writer", self->topic[kind].writer);
         }
     }
-    if (cfg->subscribes)
+    return cfg->subscribes ? create_reader(self, cfg, kind, topic) : INS_DDS_OK;
+}
+
+static int create_entities(ins_dds_t* self, const ins_dds_config_t* cfg)
+{
+    self->waitset = dds_create_waitset(self->place.participant);
+    int status = self->waitset < 0 ? dds_refused(&self->place, "waitset", self->waitset) : INS_DDS_OK;
+    for (int kind = 0; kind < INS_DDS_KINDS && status == INS_DDS_OK; kind++)
     {
-        dds_qos_t* qos = dds_quality(cfg, 0);
-        self->reader = dds_create_reader(self->place.participant, self->topic, qos, NULL);
-        dds_delete_qos(qos);
-        if (self->reader < 0)
-        {
-            return dds_refused(&self->place, "reader", self->reader);
-        }
-        self->waitset = dds_create_waitset(self->place.participant);
-        const dds_entity_t condition =
-            self->waitset > 0 ? dds_create_readcondition(self->reader, DDS_ANY_STATE) : self->waitset;
-        const dds_return_t attached =
-            condition > 0 ? dds_waitset_attach(self->waitset, condition, condition) : condition;
-        if (attached < 0)
-        {
-            return dds_refused(&self->place, "waitset", attached);
-        }
+        status = cfg->topic[kind].name != NULL ? create_topic(self, cfg, kind) : INS_DDS_OK;
     }
-    return INS_DDS_OK;
+    return status;
 }
 
 int ins_dds_open(const ins_dds_config_t* cfg, ins_dds_t** self)
@@ -90,7 +117,6 @@ int ins_dds_open(const ins_dds_config_t* cfg, ins_dds_t** self)
     {
         return dds_fail(INS_DDS_E_DDS, "memory is out");
     }
-    dds->kind = cfg->kind;
     status = dds_place_open(&dds->place, cfg, NULL);
     status = status == INS_DDS_OK ? create_entities(dds, cfg) : status;
     if (status != INS_DDS_OK)
@@ -104,14 +130,12 @@ int ins_dds_open(const ins_dds_config_t* cfg, ins_dds_t** self)
 }
 
 /// \param[out] id  [INS_DDS_SOURCE_MAX + 1], zeros before.
-static int may_publish(const ins_dds_t* self, int kind, const char* source, char* id)
+static int may_publish(const ins_dds_t* self, ins_dds_kind_t kind, const char* source, char* id)
 {
-    if (self->writer <= 0 || self->kind != kind)
+    if (self->topic[kind].writer <= 0)
     {
-        return dds_fail(INS_DDS_E_ARGUMENT, "this DDS handle was not opened to publish%s",
-                        self->writer <= 0       ? ""
-                        : kind == INS_DDS_STATE ? " states: cfg.kind was INS_DDS_SOLUTION"
-                                                : " solutions: cfg.kind was INS_DDS_STATE");
+        return dds_fail(INS_DDS_E_ARGUMENT, "this DDS handle was not opened to publish %s: ins_dds_config_carry() does",
+                        kinds[kind].usual);
     }
     const size_t length = strlen(source);
     if (length < 1 || length > INS_DDS_SOURCE_MAX)
@@ -122,42 +146,70 @@ static int may_publish(const ins_dds_t* self, int kind, const char* source, char
     return INS_DDS_OK;
 }
 
-static int write_message(const ins_dds_t* self, const void* message)
+static int write_message(ins_dds_t* self, ins_dds_kind_t kind, const void* message)
 {
-    const dds_return_t code = dds_write(self->writer, message);
+    if (self->topic[kind].seen++ % self->topic[kind].decimate != 0)
+    {
+        return INS_DDS_OK;
+    }
+    const dds_return_t code = dds_write(self->topic[kind].writer, message);
     return code < 0 ? dds_fail(INS_DDS_E_DDS, "DDS could not publish: %s", dds_strretcode(code)) : INS_DDS_OK;
+}
+
+int ins_dds_publish_navigation(ins_dds_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation,
+                               const char* source, int64_t published_ns)
+{
+    libins_NavState message = {0};
+    const ins_dds_kind_t slow = INS_DDS_STATE_DECIMATED;
+    const ins_dds_kind_t first =
+        self->topic[slow].writer > 0 && self->topic[INS_DDS_STATE].writer <= 0 ? slow : INS_DDS_STATE;
+    int status = may_publish(self, first, source, message.source);
+    if (status != INS_DDS_OK)
+    {
+        return status;
+    }
+    message.published_ns = published_ns;
+    dds_from_state(state, navigation, &message);
+    status = write_message(self, first, &message);
+    return status == INS_DDS_OK && first != slow && self->topic[slow].writer > 0 ? write_message(self, slow, &message)
+                                                                                 : status;
 }
 
 int ins_dds_publish(ins_dds_t* self, const ins_nav_state_t* state, const char* source, int64_t published_ns)
 {
-    libins_NavState message = {0};
-    message.published_ns = published_ns;
-    dds_from_state(state, &message);
-    const int status = may_publish(self, INS_DDS_STATE, source, message.source);
-    return status == INS_DDS_OK ? write_message(self, &message) : status;
+    ins_navigation_t navigation;
+    ins_navigation_from_state(state, published_ns, &navigation);
+    return ins_dds_publish_navigation(self, state, &navigation, source, published_ns);
 }
 
-int ins_dds_publish_solution(ins_dds_t* self, const ins_nav_solution_t* solution, const char* source,
-                             int64_t published_ns)
-{
-    libins_NavSolution message = {0};
-    message.published_ns = published_ns;
-    dds_from_solution(solution, &message);
-    const int status = may_publish(self, INS_DDS_SOLUTION, source, message.source);
-    return status == INS_DDS_OK ? write_message(self, &message) : status;
-}
+#define PUBLISH(kind, word, from_t, message_t)                                                                         \
+    int ins_dds_publish_##word(ins_dds_t* self, const from_t* word, const char* source, int64_t published_ns)          \
+    {                                                                                                                  \
+        message_t message = {.published_ns = published_ns};                                                            \
+        const int refused = may_publish(self, kind, source, message.source);                                           \
+        if (refused != INS_DDS_OK)                                                                                     \
+        {                                                                                                              \
+            return refused;                                                                                            \
+        }                                                                                                              \
+        dds_from_##word(word, &message);                                                                               \
+        return write_message(self, kind, &message);                                                                    \
+    }
+PUBLISH(INS_DDS_SOLUTION, solution, ins_nav_solution_t, libins_NavSolution)
+PUBLISH(INS_DDS_STATUS, status, ins_dds_status_t, libins_Status)
+PUBLISH(INS_DDS_INNOVATIONS, innovations, ins_dds_innovations_t, libins_Innovations)
+PUBLISH(INS_DDS_RAW_IMU, raw_imu, ins_dds_raw_imu_t, libins_RawImu)
 
 /// What is there now. \return samples in out, fewer than taken where a sample only says that its source is back.
-static int take_now(ins_dds_t* self, ins_dds_sample_t* out, int max)
+static int take_topic(ins_dds_t* self, ins_dds_kind_t kind, ins_dds_sample_t* out, int max)
 {
     void* buffer[TAKE_MAX];
     dds_sample_info_t info[TAKE_MAX];
     for (int i = 0; i < TAKE_MAX; i++)
     {
-        buffer[i] = self->kind == INS_DDS_STATE ? (void*)&self->taken.state[i] : (void*)&self->taken.solution[i];
+        buffer[i] = (char*)&self->taken + (size_t)i * kinds[kind].size;
     }
     const uint32_t want = max < TAKE_MAX ? (uint32_t)max : TAKE_MAX;
-    const dds_return_t got = dds_take(self->reader, buffer, info, want, want);
+    const dds_return_t got = dds_take(self->topic[kind].reader, buffer, info, want, want);
     if (got < 0)
     {
         return dds_fail(INS_DDS_E_DDS, "DDS could not take: %s", dds_strretcode(got));
@@ -171,6 +223,7 @@ static int take_now(ins_dds_t* self, ins_dds_sample_t* out, int max)
         }
         ins_dds_sample_t* sample = &out[count++];
         memset(sample, 0, sizeof *sample);
+        sample->kind = kind;
         sample->valid = info[i].valid_data;
         sample->gone = info[i].instance_state != DDS_IST_ALIVE;
         dds_to_sample(self, i, sample);
@@ -178,9 +231,40 @@ static int take_now(ins_dds_t* self, ins_dds_sample_t* out, int max)
     return count;
 }
 
+/// Of all topics, beginning with the one after that which came first the last time.
+static int take_now(ins_dds_t* self, ins_dds_sample_t* out, int max)
+{
+    int count = 0;
+    self->turn = (self->turn + 1) % INS_DDS_KINDS;
+    for (int i = 0; i < INS_DDS_KINDS && count < max; i++)
+    {
+        const int kind = (self->turn + i) % INS_DDS_KINDS;
+        if (self->topic[kind].reader > 0)
+        {
+            const int got = take_topic(self, (ins_dds_kind_t)kind, out + count, max - count);
+            if (got < 0)
+            {
+                return got;
+            }
+            count += got;
+        }
+    }
+    return count;
+}
+
+static int has_reader(const ins_dds_t* self)
+{
+    int readers = 0;
+    for (int kind = 0; kind < INS_DDS_KINDS; kind++)
+    {
+        readers += self->topic[kind].reader > 0;
+    }
+    return readers > 0;
+}
+
 int ins_dds_take(ins_dds_t* self, double timeout_s, ins_dds_sample_t* out, int max)
 {
-    if (self->reader <= 0)
+    if (!has_reader(self))
     {
         return dds_fail(INS_DDS_E_ARGUMENT, "this DDS handle was not opened to subscribe");
     }
@@ -206,14 +290,21 @@ int ins_dds_take(ins_dds_t* self, double timeout_s, ins_dds_sample_t* out, int m
 
 int ins_dds_matched(ins_dds_t* self)
 {
-    const dds_return_t readers = self->writer > 0 ? dds_get_matched_subscriptions(self->writer, NULL, 0) : 0;
-    const dds_return_t writers = self->reader > 0 ? dds_get_matched_publications(self->reader, NULL, 0) : 0;
-    if (readers < 0 || writers < 0)
+    int count = 0;
+    for (int kind = 0; kind < INS_DDS_KINDS; kind++)
     {
-        return dds_fail(INS_DDS_E_DDS, "DDS could not tell its peers: %s",
-                        dds_strretcode(readers < 0 ? readers : writers));
+        const dds_entity_t writer = self->topic[kind].writer;
+        const dds_entity_t reader = self->topic[kind].reader;
+        const dds_return_t readers = writer > 0 ? dds_get_matched_subscriptions(writer, NULL, 0) : 0;
+        const dds_return_t writers = reader > 0 ? dds_get_matched_publications(reader, NULL, 0) : 0;
+        if (readers < 0 || writers < 0)
+        {
+            return dds_fail(INS_DDS_E_DDS, "DDS could not tell its peers: %s",
+                            dds_strretcode(readers < 0 ? readers : writers));
+        }
+        count += readers + writers;
     }
-    return readers + writers;
+    return count;
 }
 
 void ins_dds_close(ins_dds_t* self)

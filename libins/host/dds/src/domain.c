@@ -10,9 +10,6 @@
 #define INTERFACE_MAX 15 ///< octets of an interface's name, IFNAMSIZ - 1
 #define PEERS_MAX     1024
 
-#define MAX_BLOCKING                                                                                                   \
-    DDS_MSECS(100) ///< what a write may wait for room; with KEEP_LAST it replaces the oldest sample instead
-
 /// Up to 61 processes of a domain on one machine. MaxAutoParticipantIndex is also the number of ports that discovery tries at each
 /// peer, hence not larger.
 static const char discovery_xml[] = "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
@@ -85,18 +82,14 @@ static int check(const ins_dds_config_t* cfg)
         return dds_fail(INS_DDS_E_ARGUMENT, "the DDS configuration was to come from CYCLONEDDS_URI, which is not set");
     }
     // Written so that NaN is refused.
-    if (!(cfg->deadline_s >= 0.0 && cfg->deadline_s <= 1e6) || !(cfg->lease_s >= 0.01 && cfg->lease_s <= 1e6))
+    if (!(cfg->lease_s >= 0.01 && cfg->lease_s <= 1e6))
     {
-        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS deadline must be 0 to 1e6 s, the liveliness lease 0.01 to 1e6 s");
+        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS liveliness lease must be 0.01 to 1e6 s");
     }
     if (cfg->strength < 0)
     {
         return dds_fail(INS_DDS_E_ARGUMENT, "the DDS strength must be 0, for shared ownership, or more, not %d",
                         (int)cfg->strength);
-    }
-    if (cfg->history < 1 || cfg->history > 100000)
-    {
-        return dds_fail(INS_DDS_E_ARGUMENT, "the DDS history must be 1 to 100000 samples");
     }
     return cfg->network == INS_DDS_INTERFACE ? check_interface(cfg) : INS_DDS_OK;
 }
@@ -228,25 +221,4 @@ void dds_place_close(dds_place_t* self)
 dds_duration_t dds_duration(double seconds)
 {
     return (dds_duration_t)(seconds * 1e9);
-}
-
-dds_qos_t* dds_quality(const ins_dds_config_t* cfg, int is_writer)
-{
-    dds_qos_t* qos = dds_create_qos();
-    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, MAX_BLOCKING);
-    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, (int32_t)cfg->history);
-    dds_qset_durability(qos, DDS_DURABILITY_VOLATILE);
-    if (cfg->partition != NULL)
-    {
-        dds_qset_partition1(qos, cfg->partition);
-    }
-    dds_qset_ownership(qos, cfg->strength > 0 ? DDS_OWNERSHIP_EXCLUSIVE : DDS_OWNERSHIP_SHARED);
-    if (is_writer)
-    {
-        dds_qset_ownership_strength(qos, cfg->strength);
-        dds_qset_writer_data_lifecycle(qos, false);
-        dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, dds_duration(cfg->lease_s));
-        dds_qset_deadline(qos, cfg->deadline_s > 0.0 ? dds_duration(cfg->deadline_s) : DDS_INFINITY);
-    }
-    return qos;
 }

@@ -15,6 +15,9 @@
 static const dds_topic_descriptor_t* const types[] = {
     &libins_NavState_desc,
     &libins_NavSolution_desc,
+    &libins_Status_desc,
+    &libins_Innovations_desc,
+    &libins_RawImu_desc,
     &sensor_msgs_msg_dds__Imu__desc,
     &sensor_msgs_msg_dds__NavSatFix__desc,
     &nav_msgs_msg_dds__Odometry__desc,
@@ -177,8 +180,9 @@ static dds_qos_t* quality(const ins_dds_raw_t* self, const ins_dds_raw_topic_t* 
     ins_dds_config_t cfg = self->cfg;
     cfg.partition = topic->partition[0] != '\0' ? topic->partition : NULL;
     cfg.strength = topic->strength;
-    cfg.deadline_s = topic->deadline_s;
-    dds_qos_t* qos = dds_quality(&cfg, is_writer);
+    const ins_dds_qos_t want = {
+        .reliable = 1, .latched = topic->latched, .history = 1, .deadline_s = topic->deadline_s};
+    dds_qos_t* qos = dds_quality(&cfg, &want, is_writer);
     dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, DDS_LENGTH_UNLIMITED);
     dds_qset_ownership(qos, topic->exclusive ? DDS_OWNERSHIP_EXCLUSIVE : DDS_OWNERSHIP_SHARED);
     if (is_writer)
@@ -188,7 +192,6 @@ static dds_qos_t* quality(const ins_dds_raw_t* self, const ins_dds_raw_topic_t* 
     }
     if (topic->latched)
     {
-        dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
         dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED,
                                     DDS_LENGTH_UNLIMITED);
     }

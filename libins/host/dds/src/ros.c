@@ -48,7 +48,6 @@ void ins_ros_config_default(ins_ros_config_t* cfg)
     memset(cfg, 0, sizeof *cfg);
     ins_dds_config_default(&cfg->dds);
     cfg->dds.domain = INS_ROS_DOMAIN_ENV;
-    cfg->dds.deadline_s = 0;
     cfg->node = "libins";
     cfg->name_space = "/";
     cfg->odom = "odom";
@@ -59,6 +58,8 @@ void ins_ros_config_default(ins_ros_config_t* cfg)
     {
         cfg->topic[i].name = kinds[i].name;
         cfg->topic[i].decimate = 1;
+        (void)ins_dds_qos_profile("default", &cfg->topic[i].qos);
+        cfg->topic[i].qos.deadline_s = 0; // instants may lack what a topic says
     }
 }
 
@@ -114,10 +115,7 @@ static int check(const ins_ros_config_t* cfg)
         if (name != NULL)
         {
             status = fits("topic", name, is_name(name[0] == '/' ? name + 1 : name, 1));
-        }
-        if (status == INS_DDS_OK && cfg->topic[i].decimate < 1)
-        {
-            status = dds_fail(INS_DDS_E_ARGUMENT, "a ROS topic is decimated by 1 or more, %s by 0", kinds[i].name);
+            status = status == INS_DDS_OK ? dds_check_topic(&cfg->topic[i], kinds[i].name) : status;
         }
     }
     if (status == INS_DDS_OK && cfg->gid_octets != 0 && cfg->gid_octets != ROS_GID)
@@ -161,18 +159,12 @@ static int choose_domain(uint32_t wanted, uint32_t* domain)
 
 /// "typehash=...;" belongs to the writer; rmw_cyclonedds warns at each sample without it (ros2/rmw_cyclonedds#567).
 static dds_entity_t create_writer(const ins_ros_t* self, const ins_dds_config_t* dds, const char* name,
-                                  const dds_topic_descriptor_t* type, const char* hash, int latched)
+                                  const dds_topic_descriptor_t* type, const char* hash, const ins_dds_qos_t* want)
 {
     char user[128];
     const int length = snprintf(user, sizeof user, "typehash=%s;", hash);
-    dds_qos_t* qos = dds_quality(dds, 1);
+    dds_qos_t* qos = dds_quality(dds, want, 1);
     dds_qset_userdata(qos, user, (size_t)length);
-    if (latched)
-    {
-        dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
-        dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
-        dds_qset_deadline(qos, DDS_INFINITY);
-    }
     const dds_entity_t topic = dds_create_topic(self->place.participant, type, name, NULL, NULL);
     const dds_entity_t writer = topic < 0 ? topic : dds_create_writer(self->place.participant, topic, qos, NULL);
     dds_delete_qos(qos);
@@ -192,7 +184,7 @@ static int create_topics(ins_ros_t* self, const ins_ros_config_t* cfg, const ins
         const char* const space = self->name_space[1] == '\0' ? "" : self->name_space;
         (void)snprintf(full, sizeof full, "rt%s%s%s", name[0] == '/' ? "" : space, name[0] == '/' ? "" : "/", name);
         self->decimate[i] = cfg->topic[i].decimate;
-        self->writer[i] = create_writer(self, dds, full, kinds[i].type, kinds[i].hash, 0);
+        self->writer[i] = create_writer(self, dds, full, kinds[i].type, kinds[i].hash, &cfg->topic[i].qos);
         if (self->writer[i] < 0)
         {
             return dds_refused(&self->place, full, self->writer[i]);
@@ -217,8 +209,10 @@ static int introduce(ins_ros_t* self, const ins_dds_config_t* dds)
     rmw_dds_common_msg_dds__ParticipantEntitiesInfo_ info;
     memset(&node, 0, sizeof node);
     memset(&info, 0, sizeof info);
-    self->info =
-        create_writer(self, dds, INFO_TOPIC, &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, INFO_HASH, 1);
+    ins_dds_qos_t latched;
+    (void)ins_dds_qos_profile("latched", &latched);
+    self->info = create_writer(self, dds, INFO_TOPIC, &rmw_dds_common_msg_dds__ParticipantEntitiesInfo__desc, INFO_HASH,
+                               &latched);
     dds_return_t code = self->info;
     code = code < 0 ? code : gid_of(self->place.participant, &info.gid);
     uint32_t count = 0;

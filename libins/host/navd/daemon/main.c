@@ -48,7 +48,7 @@ static int hand_on(const queue_item_t* item, ins_nav_solver_t* solver, output_t*
     if (options->input == INPUT_NAV)
     {
         totals->missed += item->is.solution.lost;
-        return output_solution(output, &item->is.solution, &stop, error, size) == 0 ? 1 : -1;
+        return output_solution(output, &item->is.solution, NULL, &stop, error, size) == 0 ? 1 : -1;
     }
     ins_nav_state_t state;
     if (ins_nav_solver_step(solver, &item->is.sample, &state) != INS_OK)
@@ -57,7 +57,7 @@ static int hand_on(const queue_item_t* item, ins_nav_solver_t* solver, output_t*
         return 0;
     }
     totals->missed = state.missed;
-    return output_state(output, &state, &stop, error, size) == 0 ? 1 : -1;
+    return output_state(output, &state, NULL, &stop, error, size) == 0 ? 1 : -1;
 }
 
 /// The computing half, until the queue is closed, the limit is reached or the output fails.

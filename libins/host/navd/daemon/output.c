@@ -83,19 +83,20 @@ static int finish(output_t* self, int published, const char* line, size_t length
     return 0;
 }
 
-int output_state(output_t* self, const ins_nav_state_t* state, const atomic_int* stop, char* error, size_t size)
+int output_state(output_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation,
+                 const atomic_int* stop, char* error, size_t size)
 {
     char line[INS_NAV_JSON_MAX];
-    const int published = self->publisher != NULL && publisher_put(self->publisher, state);
+    const int published = self->publisher != NULL && publisher_put(self->publisher, state, navigation);
     const size_t length = self->fd >= 0 ? ins_nav_state_json(state, line, sizeof line) : 0;
     return finish(self, published, line, length, stop, error, size);
 }
 
-int output_solution(output_t* self, const ins_nav_solution_t* solution, const atomic_int* stop, char* error,
-                    size_t size)
+int output_solution(output_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation,
+                    const atomic_int* stop, char* error, size_t size)
 {
     char line[INS_NAV_JSON_MAX];
-    const int published = self->publisher != NULL && publisher_put_solution(self->publisher, solution);
+    const int published = self->publisher != NULL && publisher_put_solution(self->publisher, solution, navigation);
     const size_t length = self->fd >= 0 ? ins_nav_solution_json(solution, line, sizeof line) : 0;
     return finish(self, published, line, length, stop, error, size);
 }

@@ -3,6 +3,7 @@
 /// SPDX-License-Identifier: MIT
 #ifndef NAVD_OUTPUT_H_INCLUDED
 #define NAVD_OUTPUT_H_INCLUDED
+#include "ins_nav/navigation.h"
 #include "options.h"
 #include <stdatomic.h>
 
@@ -10,9 +11,9 @@ typedef struct publisher_t publisher_t;
 
 /// \return NULL with the reason in error.
 publisher_t* publisher_open(const options_t* options, char* error, size_t size);
-/// \return 1 published, 0 not.
-int publisher_put(publisher_t* self, const ins_nav_state_t* state);
-int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution);
+/// \param[in] navigation  NULL: what follows from the state, or the solution, now. \return 1 published, 0 not.
+int publisher_put(publisher_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation);
+int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation);
 /// NULL is allowed.
 void publisher_close(publisher_t* self);
 
@@ -28,11 +29,13 @@ typedef struct output_t
 
 /// \return 0; -1 with the reason in error.
 int output_open(output_t* self, const options_t* options, char* error, size_t size);
-/// Waits for a slow reader of the JSON lines, until *stop. \return 0; -1 with the reason in error: no further line can be written.
-int output_state(output_t* self, const ins_nav_state_t* state, const atomic_int* stop, char* error, size_t size);
+/// Waits for a slow reader of the JSON lines, until *stop. \param[in] navigation  as publisher_put() takes it, NULL included.
+/// \return 0; -1 with the reason in error: no further line can be written.
+int output_state(output_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation,
+                 const atomic_int* stop, char* error, size_t size);
 /// The same, for what a navigating board says.
-int output_solution(output_t* self, const ins_nav_solution_t* solution, const atomic_int* stop, char* error,
-                    size_t size);
+int output_solution(output_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation,
+                    const atomic_int* stop, char* error, size_t size);
 void output_close(output_t* self);
 
 /// One line {"event":"NAME", ...} on standard error. The format's rest begins after the name, such as ",\"count\":%d".

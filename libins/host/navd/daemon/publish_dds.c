@@ -90,8 +90,9 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
     ins_dds_config_default(&cfg);
     char* text = NULL;
     cfg.domain = options->domain;
-    cfg.kind = options->input == INPUT_NAV ? INS_DDS_SOLUTION : INS_DDS_STATE;
-    cfg.topic = options->topic;
+    const ins_dds_kind_t kind = options->input == INPUT_NAV ? INS_DDS_SOLUTION : INS_DDS_STATE;
+    ins_dds_config_carry(&cfg, kind);
+    cfg.topic[kind].name = options->topic != NULL ? options->topic : cfg.topic[kind].name;
     cfg.partition = options->partition;
     cfg.strength = options->strength;
     cfg.lease_s = options->lease_s > 0.0 ? options->lease_s : cfg.lease_s;
@@ -183,31 +184,27 @@ static int put_ros(publisher_t* self, const ins_navigation_t* navigation, const 
     return ins_ros_publish(self->ros, navigation) == INS_DDS_OK;
 }
 
-int publisher_put(publisher_t* self, const ins_nav_state_t* state)
+int publisher_put(publisher_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation)
 {
     const int64_t now_ns = wall_ns();
-    const int states = self->dds == NULL || ins_dds_publish(self->dds, state, self->source, now_ns) == INS_DDS_OK;
-    if (self->ros == NULL)
-    {
-        return states;
-    }
-    ins_navigation_t navigation;
-    ins_navigation_from_state(state, now_ns, &navigation);
-    return put_ros(self, &navigation, &state->counts) && states;
+    ins_navigation_t own;
+    ins_navigation_from_state(state, now_ns, &own);
+    const ins_navigation_t* const tell = navigation != NULL ? navigation : &own;
+    const int states =
+        self->dds == NULL || ins_dds_publish_navigation(self->dds, state, tell, self->source, now_ns) == INS_DDS_OK;
+    return (self->ros == NULL || put_ros(self, tell, &state->counts)) && states;
 }
 
-int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution)
+int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation)
 {
     const int64_t now_ns = wall_ns();
-    const int states =
+    ins_navigation_t own;
+    ins_nav_state_t state;
+    ins_navigation_from_solution(solution, now_ns, &own);
+    ins_nav_state_from_solution(solution, &state);
+    const int solutions =
         self->dds == NULL || ins_dds_publish_solution(self->dds, solution, self->source, now_ns) == INS_DDS_OK;
-    if (self->ros == NULL)
-    {
-        return states;
-    }
-    ins_navigation_t navigation;
-    ins_navigation_from_solution(solution, now_ns, &navigation);
-    return put_ros(self, &navigation, &solution->counts) && states;
+    return publisher_put(self, &state, navigation != NULL ? navigation : &own) && solutions;
 }
 
 void publisher_close(publisher_t* self)

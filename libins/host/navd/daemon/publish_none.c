@@ -12,16 +12,18 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
     return NULL;
 }
 
-int publisher_put(publisher_t* self, const ins_nav_state_t* state)
+int publisher_put(publisher_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation)
 {
     (void)self;
+    (void)navigation;
     (void)state;
     return 0;
 }
 
-int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution)
+int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation)
 {
     (void)self;
+    (void)navigation;
     (void)solution;
     return 0;
 }

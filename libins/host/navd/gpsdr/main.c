@@ -98,7 +98,7 @@ static void hand_on(daemon_t* self, const ins_nav_solution_t* solution)
         }
         self->shown = tasks;
     }
-    if (output_solution(&self->output, solution, &stop, error, sizeof error) != 0)
+    if (output_solution(&self->output, solution, NULL, &stop, error, sizeof error) != 0)
     {
         fprintf(stderr, "ins-gpsdr: %s\n", error);
         end(END_OUTPUT);

@@ -22,11 +22,27 @@ void ins_navigation_from_solution(const ins_nav_solution_t* solution, int64_t ti
         out->valid |= INS_NAVIGATION_ATTITUDE;
         memcpy(out->q_nb, solution->q_nb, sizeof out->q_nb);
     }
-    if (solution->zone != 0)
+    if ((solution->status & INS_NAV_BLOCK_POSITION) != 0)
     {
-        out->valid |= INS_NAVIGATION_VELOCITY | INS_NAVIGATION_POSITION;
-        out->v_n[0] = solution->v_en_m_s[1];
-        out->v_n[1] = solution->v_en_m_s[0];
+        out->valid |= INS_NAVIGATION_POSITION;
         memcpy(out->llh, solution->lat_lon_rad, sizeof solution->lat_lon_rad);
     }
+    if ((out->valid & INS_NAVIGATION_POSITION) != 0 && (out->valid & INS_NAVIGATION_ATTITUDE) != 0)
+    {
+        out->valid |= INS_NAVIGATION_VELOCITY;
+        out->v_n[0] = solution->v_en_m_s[1];
+        out->v_n[1] = solution->v_en_m_s[0];
+    }
+}
+
+void ins_nav_state_from_solution(const ins_nav_solution_t* solution, ins_nav_state_t* out)
+{
+    memset(out, 0, sizeof *out);
+    out->index = solution->index;
+    out->t_s = solution->t_s;
+    memcpy(out->q_nb, solution->q_nb, sizeof out->q_nb);
+    memcpy(out->euler_rad, solution->euler_rad, sizeof out->euler_rad);
+    out->seq = solution->seq;
+    out->bridged = solution->lost;
+    out->counts = solution->counts;
 }

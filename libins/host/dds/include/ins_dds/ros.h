@@ -37,21 +37,16 @@ typedef enum ins_ros_topic_t
     INS_ROS_TOPICS
 } ins_ros_topic_t;
 
-typedef struct ins_ros_topic_config_t
-{
-    const char* name;  ///< below the namespace, or absolute with a leading '/'; NULL: not published
-    uint32_t decimate; ///< one of so many, the first included; 1: all
-} ins_ros_topic_config_t;
-
 typedef struct ins_ros_config_t
 {
-    ins_dds_config_t dds;   ///< kind, topic, publishes and subscribes are not looked at
+    ins_dds_config_t dds;   ///< topic, publishes and subscribes are not looked at
     const char* node;       ///< letters, digits and _
     const char* name_space; ///< "/", or a path such as "/car/nav"
     const char* odom;       ///< frame: tangent to the Earth at the first position
     const char* base;       ///< frame: body, FLU
     const char* imu;        ///< frame of the sensor, FLU; rigid with `base`
-    ins_ros_topic_config_t topic[INS_ROS_TOPICS];
+    /// Names are below the namespace, or absolute with a leading '/'; NULL: not published.
+    ins_dds_topic_config_t topic[INS_ROS_TOPICS];
     double rate_sigma;   ///< of an angular rate [rad/s]; 0: unknown
     double force_sigma;  ///< of a specific force [m/s^2]; 0: unknown
     uint32_t gid_octets; ///< of ros_discovery_info: 16; 0: none is published
@@ -74,7 +69,8 @@ enum
 
 typedef struct ins_ros_t ins_ros_t;
 
-/// Node "libins" in "/", ROS_DOMAIN_ID, loopback, frames odom, base_link, imu_link, all topics, none decimated.
+/// Node "libins" in "/", ROS_DOMAIN_ID, loopback, frames odom, base_link, imu_link, all topics, none decimated, QoS "default"
+/// without a deadline.
 INS_API void ins_ros_config_default(ins_ros_config_t* cfg);
 /// \return INS_DDS_OK, or an error with its text in ins_dds_error_text(), and then *self is NULL and nothing is left open.
 INS_API int ins_ros_open(const ins_ros_config_t* cfg, ins_ros_t** self);
