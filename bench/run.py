@@ -57,6 +57,12 @@ CORE = (
     ),
     ("kf15.lever6.f64.x86", "kf15_f64", "bench_kf15_lever6", (20, 220), 1, "eigen_kf15_update6"),
     ("kf15.lever6.f32.x86", "kf15_f32", "bench_kf15_lever6", (20, 220), 1, None),
+    ("gps_ins.step.f64.x86", "gps_ins_f64", "ins_gps_ins_step", (50, 150), 20, "eigen_kf15_propagate"),
+    ("gps_ins.step.f32.x86", "gps_ins_f32", "ins_gps_ins_step", (50, 150), 20, None),
+    ("gps_ins.gnss.f64.x86", "gps_ins_f64", "ins_gps_ins_gnss", (50, 150), 1, "eigen_kf15_update6"),
+    ("gps_ins.gnss.f32.x86", "gps_ins_f32", "ins_gps_ins_gnss", (50, 150), 1, None),
+    ("gps_ins.gnss_late.f64.x86", "gps_ins_late_f64", "ins_gps_ins_gnss", (50, 150), 1, "eigen_kf15_update6"),
+    ("gps_ins.gnss_late.f32.x86", "gps_ins_late_f32", "ins_gps_ins_gnss", (50, 150), 1, None),
     ("batch.f64.x86_64_v3", "batch_f64", "ins_batch_step", (100, 300), 256, None),
     ("batch.f32.x86_64_v3", "batch_f32", "ins_batch_step", (100, 300), 256, None),
 )
@@ -90,7 +96,7 @@ def measure_core() -> list[Row]:
     rows = []
     for name, load, function, runs, updates, eigen in CORE:
         alone = row(f"{name}.instructions", per_step(f"core/bench_{load}", *runs, function) / updates, "instructions")
-        covariance = load.startswith("kf15")
+        covariance = load.startswith(("kf15", "gps_ins"))
         if eigen:
             peer = "core/bench_eigen_kf15" if covariance else "core/bench_eigen"
             alone |= {"peer": "Eigen", "peer_value": per_step(peer, 100, 300, eigen)}

@@ -121,10 +121,15 @@ struct Ride
     ins_gps_ins_config_t cfg;
     ins_imu_config_t sensor;
     ins_imu_t imu;
-    ins_gps_ins_ud_t both;
-    ins_gps_ins_t& nav = both.base;
+    union
+    {
+        ins_gps_ins_ud_t both;
+        ins_gps_ins_scale_t scaled;
+    };
+    ins_gps_ins_t& nav = both.base; ///< scaled.base as well
     bool ud = false;
-    double sigma_p = 1, sigma_v = 0.1; ///< of the fixes
+    const ins_kf15_scale_sensors_t* scales = nullptr; ///< of the filter with scale factors
+    double sigma_p = 1, sigma_v = 0.1;                ///< of the fixes
 
     Ride(const ins_track_t* on, uint64_t seed) : track(on), random(seed)
     {
@@ -174,7 +179,10 @@ struct Ride
             s.sigma[i] = static_cast<ins_real>(sigma[i]);
         }
         ASSERT_TRUE(ins_imu_init(&imu, &sensor, why, sizeof why)) << why;
-        ASSERT_EQ(ud ? ins_gps_ins_ud_init(&both, &cfg, &s) : ins_gps_ins_init(&nav, &cfg, &s), INS_OK);
+        ASSERT_EQ(scales != nullptr ? ins_gps_ins_scale_init(&scaled, &cfg, scales, &s)
+                  : ud              ? ins_gps_ins_ud_init(&both, &cfg, &s)
+                                    : ins_gps_ins_init(&nav, &cfg, &s),
+                  INS_OK);
     }
     ins_increment_t sample(const std::array<double, 6>& exact)
     {
@@ -230,16 +238,16 @@ struct Ride
     }
 };
 
-/// e P^-1 e; NaN if P is not positive.
-inline double nees(const ins_gps_ins_t& nav, const Errors& e)
+/// e P^-1 e; NaN if P is not positive. \param[in] P  P(i, j)
+template <size_t M, typename Matrix> double quadratic(const std::array<double, M>& e, const Matrix& P)
 {
-    double L[N][N], y[N], sum = 0;
-    for (size_t i = 0; i < N; i++)
+    double L[M][M], y[M], sum = 0;
+    for (size_t i = 0; i < M; i++)
     {
         y[i] = e[i];
         for (size_t j = 0; j <= i; j++)
         {
-            double s = static_cast<double>(nav.kf.P[INS_KF15_ROW * i + j]);
+            double s = static_cast<double>(P(i, j));
             for (size_t k = 0; k < j; k++)
             {
                 s -= L[i][k] * L[j][k];
@@ -253,12 +261,36 @@ inline double nees(const ins_gps_ins_t& nav, const Errors& e)
     return sum;
 }
 
+inline double nees(const ins_gps_ins_t& nav, const Errors& e)
+{
+    return quadratic(e, [&](size_t i, size_t j) { return nav.kf.P[INS_KF15_ROW * i + j]; });
+}
+
 /// 95 % of a chi-squared variable of n degrees of freedom lie in here (Wilson and Hilferty 1931).
 inline std::array<double, 2> chi2_95(double n)
 {
     const double a = 2 / (9 * n), z = 1.959964 * std::sqrt(a);
     return {n * std::pow(1 - a - z, 3), n * std::pow(1 - a + z, 3)};
 }
+
+/// A sum of squares that should be chi-squared.
+struct Squares
+{
+    double sum = 0, freedom = 0;
+    void take(double x, double n)
+    {
+        sum += x;
+        freedom += n;
+    }
+    void expect(const char* what) const
+    {
+        const auto bounds = chi2_95(freedom);
+        std::printf("[ figure   ] %s: %.4f a degree of freedom of %.0f, 95 %% within %.4f .. %.4f\n", what,
+                    sum / freedom, freedom, bounds[0] / freedom, bounds[1] / freedom);
+        EXPECT_GE(sum, bounds[0]) << what;
+        EXPECT_LE(sum, bounds[1]) << what;
+    }
+};
 } // namespace ride
 } // namespace core_test
 

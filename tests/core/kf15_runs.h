@@ -65,11 +65,77 @@ inline Row15 sigmas(double position = 10)
 }
 
 /// The textbook's filter: full matrices, long double, Joseph.
-struct Reference
+template <size_t N> struct DenseFilter
 {
-    Dense P = {};
-    std::array<long double, N15> K = {};
+    std::array<std::array<long double, N>, N> P = {};
+    std::array<long double, N> K = {};
 
+    /// P = A P A'
+    template <typename Matrix> void congruence(const Matrix& A)
+    {
+        std::array<std::array<long double, N>, N> AP = {};
+        std::array<std::array<long double, N>, N> out = {};
+        for (size_t i = 0; i < N; i++)
+        {
+            for (size_t k = 0; k < N; k++)
+            {
+                for (size_t j = 0; j < N; j++)
+                {
+                    AP[i][j] += A(i, k) * P[k][j];
+                }
+            }
+        }
+        for (size_t i = 0; i < N; i++)
+        {
+            for (size_t j = 0; j < N; j++)
+            {
+                for (size_t k = 0; k < N; k++)
+                {
+                    out[i][j] += AP[i][k] * A(j, k);
+                }
+            }
+        }
+        P = out;
+    }
+    void update(const std::array<ins_real, N>& h, double r)
+    {
+        std::array<long double, N> g = {};
+        long double s = r;
+        for (size_t i = 0; i < N; i++)
+        {
+            for (size_t j = 0; j < N; j++)
+            {
+                g[i] += P[i][j] * static_cast<long double>(h[j]);
+            }
+            s += g[i] * static_cast<long double>(h[i]);
+        }
+        for (size_t i = 0; i < N; i++)
+        {
+            K[i] = g[i] / s;
+        }
+        congruence([&](size_t i, size_t j) { return (i == j) - K[i] * static_cast<long double>(h[j]); });
+        for (size_t i = 0; i < N; i++)
+        {
+            for (size_t j = 0; j < N; j++)
+            {
+                P[i][j] += K[i] * r * K[j];
+            }
+        }
+    }
+    void add_noise(const ins_kf15_model_t& m)
+    {
+        for (size_t i = 0; i < 3; i++)
+        {
+            P[i][i] += static_cast<long double>(m.q_phi);
+            P[3 + i][3 + i] += static_cast<long double>(m.q_v);
+            P[9 + i][9 + i] += static_cast<long double>(m.bg.q);
+            P[12 + i][12 + i] += static_cast<long double>(m.ba.q);
+        }
+    }
+};
+
+struct Reference : DenseFilter<N15>
+{
     explicit Reference(const Row15& sigma)
     {
         for (size_t i = 0; i < N15; i++)
@@ -82,66 +148,7 @@ struct Reference
         ins_real Phi[N15 * N15];
         ins_kf15_transition(&m, Phi);
         congruence([&](size_t i, size_t j) { return static_cast<long double>(Phi[i * N15 + j]); });
-        for (size_t i = 0; i < 3; i++)
-        {
-            P[i][i] += static_cast<long double>(m.q_phi);
-            P[3 + i][3 + i] += static_cast<long double>(m.q_v);
-            P[9 + i][9 + i] += static_cast<long double>(m.bg.q);
-            P[12 + i][12 + i] += static_cast<long double>(m.ba.q);
-        }
-    }
-    void update(const Row15& h, double r)
-    {
-        std::array<long double, N15> g = {};
-        long double s = r;
-        for (size_t i = 0; i < N15; i++)
-        {
-            for (size_t j = 0; j < N15; j++)
-            {
-                g[i] += P[i][j] * static_cast<long double>(h[j]);
-            }
-            s += g[i] * static_cast<long double>(h[i]);
-        }
-        for (size_t i = 0; i < N15; i++)
-        {
-            K[i] = g[i] / s;
-        }
-        congruence([&](size_t i, size_t j) { return (i == j) - K[i] * static_cast<long double>(h[j]); });
-        for (size_t i = 0; i < N15; i++)
-        {
-            for (size_t j = 0; j < N15; j++)
-            {
-                P[i][j] += K[i] * r * K[j];
-            }
-        }
-    }
-
-  private:
-    template <typename Matrix> void congruence(const Matrix& A)
-    {
-        Dense AP = {};
-        Dense out = {};
-        for (size_t i = 0; i < N15; i++)
-        {
-            for (size_t k = 0; k < N15; k++)
-            {
-                for (size_t j = 0; j < N15; j++)
-                {
-                    AP[i][j] += A(i, k) * P[k][j];
-                }
-            }
-        }
-        for (size_t i = 0; i < N15; i++)
-        {
-            for (size_t j = 0; j < N15; j++)
-            {
-                for (size_t k = 0; k < N15; k++)
-                {
-                    out[i][j] += AP[i][k] * A(j, k);
-                }
-            }
-        }
-        P = out;
+        add_noise(m);
     }
 };
 
@@ -221,12 +228,12 @@ template <typename Form> Dense covariance(const Form& form)
 }
 
 /// Largest element of P - want, in standard deviations of its row and column.
-inline double distance(const Dense& P, const Dense& want)
+template <typename Matrix> double distance(const Matrix& P, const Matrix& want)
 {
     double worst = 0;
-    for (size_t i = 0; i < N15; i++)
+    for (size_t i = 0; i < P.size(); i++)
     {
-        for (size_t j = 0; j < N15; j++)
+        for (size_t j = 0; j < P.size(); j++)
         {
             const long double e = std::fabs(P[i][j] - want[i][j]) / std::sqrt(want[i][i] * want[j][j]);
             worst = larger(worst, static_cast<double>(e));
@@ -236,23 +243,23 @@ inline double distance(const Dense& P, const Dense& want)
 }
 
 /// Smallest pivot of the correlation matrix: not above 0 when P is no covariance.
-inline double smallest_pivot(const Dense& P)
+template <typename Matrix> double smallest_pivot(const Matrix& P)
 {
-    Dense L = P;
-    for (size_t i = 0; i < N15; i++)
+    Matrix L = P;
+    for (size_t i = 0; i < P.size(); i++)
     {
-        for (size_t j = 0; j < N15; j++)
+        for (size_t j = 0; j < P.size(); j++)
         {
             L[i][j] /= std::sqrt(P[i][i] * P[j][j]);
         }
     }
     long double least = 1;
-    for (size_t k = 0; k < N15; k++)
+    for (size_t k = 0; k < P.size(); k++)
     {
         least = L[k][k] >= least ? least : L[k][k]; // NaN is least of all
-        for (size_t i = k + 1; i < N15; i++)
+        for (size_t i = k + 1; i < P.size(); i++)
         {
-            for (size_t j = k + 1; j < N15; j++)
+            for (size_t j = k + 1; j < P.size(); j++)
             {
                 L[i][j] -= L[i][k] * L[k][j] / L[k][k];
             }

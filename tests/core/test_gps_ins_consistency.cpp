@@ -21,25 +21,6 @@ int runs()
     return std::getenv("INS_BENCH") != nullptr ? BENCH_RUNS : RUNS;
 }
 
-/// A sum of squares that should be chi-squared.
-struct Squares
-{
-    double sum = 0, freedom = 0;
-    void take(double x, double n)
-    {
-        sum += x;
-        freedom += n;
-    }
-    void expect(const char* what) const
-    {
-        const auto bounds = chi2_95(freedom);
-        std::printf("[ figure   ] %s: %.4f a degree of freedom of %.0f, 95 %% within %.4f .. %.4f\n", what,
-                    sum / freedom, freedom, bounds[0] / freedom, bounds[1] / freedom);
-        EXPECT_GE(sum, bounds[0]) << what;
-        EXPECT_LE(sum, bounds[1]) << what;
-    }
-};
-
 TEST(gps_ins_consistency, nees_and_nis_of_many_runs_are_chi_squared)
 {
     const ride::Track track = eight(5);

@@ -35,6 +35,8 @@ OWN_NAMES = {
     "static ins_gnss_fix_t fix; static ins_gps_ins_align_config_t how; static ins_gps_ins_t n;"
     "static int64_t t_ns; static int new_fix;",
     "ins/kf15.h": "static ins_strapdown_t s; static ins_real sigma[15]; static ins_kf15_sensors_t sensors;",
+    "ins/kf15_scale.h": "static ins_kf15_scale_sensors_t sensors; static ins_kf15_t f; static ins_kf15_model_t m;"
+    "static ins_real h[15], h_s[6]; static ins_innovation_t z;",
     "ins/q31.h": "int32_t q_nb0[4] = {0}, dtheta_b[3] = {0};",
     "ins_nav/six.h": "static ins_nav_six_t six; static ins_nav_six_config_t config; static ins_nav_six_state_t state;"
     "static ins_nav_link_t link; static ins_nav_sample_t sample; static double lat_lon_height[3], age_s, sigma_m[3];",

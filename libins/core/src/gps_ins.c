@@ -103,7 +103,7 @@ static void clear(ins_gps_ins_t* self)
     self->newest = 0;
     self->held = 0;
     self->plain = 0;
-    self->ud = 0;
+    self->form = GPS_INS_P;
 }
 
 ins_status_t ins_gps_ins_init(ins_gps_ins_t* self, const ins_gps_ins_config_t* cfg, const ins_gps_ins_start_t* start)
@@ -137,7 +137,7 @@ ins_status_t ins_gps_ins_ud_init(ins_gps_ins_ud_t* self, const ins_gps_ins_confi
     const ins_status_t status = ins_gps_ins_init(&self->base, cfg, start);
     if (status == INS_OK)
     {
-        self->base.ud = 1;
+        self->base.form = GPS_INS_UD;
         ins_gps_ins_restart(&self->base, start->sigma);
     }
     return status;
@@ -146,9 +146,13 @@ ins_status_t ins_gps_ins_ud_init(ins_gps_ins_ud_t* self, const ins_gps_ins_confi
 void ins_gps_ins_restart(ins_gps_ins_t* self, const ins_real sigma[INS_KF15_N])
 {
     (void)ins_kf15_init(&self->kf, sigma); // both refuse what start and fixes were refused for
-    if (self->ud)
+    if (self->form == GPS_INS_UD)
     {
         (void)ins_kf15_ud_init(gps_ins_ud(self), sigma);
+    }
+    if (self->form == GPS_INS_SCALE)
+    {
+        ins_gps_ins_scale_part(self);
     }
 }
 
@@ -170,13 +174,17 @@ static void propagate(ins_gps_ins_t* self, ins_real dt, const ins_real v_b[3], i
         self->plain = (uint_least8_t)plain;
     }
     ins_kf15_model(&self->model, &self->nav, v_b);
-    if (self->ud)
+    if (self->form == GPS_INS_P)
+    {
+        ins_kf15_propagate(&self->kf, &self->model);
+    }
+    else if (self->form == GPS_INS_UD)
     {
         ins_kf15_ud_propagate(gps_ins_ud(self), &self->model);
     }
     else
     {
-        ins_kf15_propagate(&self->kf, &self->model);
+        ins_gps_ins_scale_propagate(self, v_b);
     }
 }
 
@@ -203,8 +211,8 @@ static ins_status_t mechanise(ins_gps_ins_t* self, ins_real dt, const ins_increm
     {
         return status;
     }
-    ins_vec_add_scaled(self->way_n, self->nav.half_period, before);
-    ins_vec_add_scaled(self->way_n, self->nav.half_period, self->nav.v_n);
+    const ins_real way[3] = {before[0] + self->nav.v_n[0], before[1] + self->nav.v_n[1], before[2] + self->nav.v_n[2]};
+    ins_vec_add_scaled(self->way_n, self->nav.half_period, way);
     ins_vec_add_scaled(self->gyro_bias, -dt / self->cfg.sensors.bg_tau, self->gyro_bias);
     ins_vec_add_scaled(self->accel_bias, -dt / self->cfg.sensors.ba_tau, self->accel_bias);
     return INS_OK;
@@ -238,6 +246,10 @@ static ins_status_t bridge(ins_gps_ins_t* self, ins_real gap, ins_real dt, const
         {
             return INS_E_RANGE;
         }
+        if (self->form == GPS_INS_SCALE)
+        {
+            ins_gps_ins_scale_pend(self, hold.theta_b);
+        }
         propagate(self, h, hold.v_b, gap);
     }
     self->nav.sculling.count = 0;
@@ -266,6 +278,10 @@ ins_status_t ins_gps_ins_step(ins_gps_ins_t* self, int64_t t_ns, ins_real dt, co
     x = *increment; // SDCC copies no struct in a definition
     ins_vec_add_scaled(x.theta_b, -dt, self->gyro_bias);
     ins_vec_add_scaled(x.v_b, -dt, self->accel_bias);
+    if (self->form == GPS_INS_SCALE)
+    {
+        ins_gps_ins_scale_take_off(self, dt, &x);
+    }
     if ((gap > 0 && bridge(self, gap, dt, &x) != INS_OK) || mechanise(self, dt, &x) != INS_OK)
     {
         self->lost = 1; // too near to a pole
@@ -278,6 +294,10 @@ ins_status_t ins_gps_ins_step(ins_gps_ins_t* self, int64_t t_ns, ins_real dt, co
     {
         self->w_ib_b[i] = x.theta_b[i] / dt;
         self->pending_v[i] += x.v_b[i];
+    }
+    if (self->form == GPS_INS_SCALE)
+    {
+        ins_gps_ins_scale_pend(self, x.theta_b);
     }
     self->pending++;
     if (self->pending >= self->cfg.decimate)
@@ -302,7 +322,7 @@ void ins_gps_ins_state(const ins_gps_ins_t* self, ins_gps_ins_state_t* state)
     const ins_real* q = self->nav.sculling.q_nb;
     const ins_real* P = self->kf.P;
     ins_real of_factors[INS_KF15_N * INS_KF15_ROW];
-    if (self->ud)
+    if (self->form == GPS_INS_UD)
     {
         ins_kf15_ud_covariance(&((const ins_gps_ins_ud_t*)self)->ud, of_factors);
         P = of_factors;

@@ -22,11 +22,37 @@ typedef struct gps_ins_rows_t
 
 /// P(i,j).
 ins_real ins_gps_ins_covariance(const ins_gps_ins_t* self, unsigned i, unsigned j);
-/// The factors, of self->ud.
+/// What self is the base of.
+enum
+{
+    GPS_INS_P,    ///< nothing
+    GPS_INS_UD,   ///< an ins_gps_ins_ud_t
+    GPS_INS_SCALE ///< an ins_gps_ins_scale_t
+};
+/// The factors, of GPS_INS_UD.
 static inline ins_kf15_ud_t* gps_ins_ud(ins_gps_ins_t* self)
 {
     return &((ins_gps_ins_ud_t*)self)->ud; // self is its first member
 }
+/// Of GPS_INS_SCALE; so are the functions ins_gps_ins_scale_* that follow.
+static inline ins_gps_ins_scale_t* gps_ins_scale(ins_gps_ins_t* self)
+{
+    return (ins_gps_ins_scale_t*)self;
+}
+/// P begins anew: what goes with it.
+void ins_gps_ins_scale_part(ins_gps_ins_t* base);
+/// Scale factors out of a sample without its biases, and their decay over it.
+void ins_gps_ins_scale_take_off(ins_gps_ins_t* base, ins_real dt, ins_increment_t* x);
+/// Angle that the next step of the covariance is over.
+void ins_gps_ins_scale_pend(ins_gps_ins_t* base, const ins_real theta_b[3]);
+/// That step, by base->model.
+void ins_gps_ins_scale_propagate(ins_gps_ins_t* base, const ins_real v_b[3]);
+/// What the scale factors add to a P b' of two rows.
+ins_real ins_gps_ins_scale_product(ins_gps_ins_t* base, const ins_real a[INS_KF15_N], const ins_real b[INS_KF15_N]);
+/// ins_kf15_update() of all; those before it since the last correction are taken off z->v.
+ins_status_t ins_gps_ins_scale_update(ins_gps_ins_t* base, const ins_real h[INS_KF15_N], ins_innovation_t* z);
+/// What updates found goes into the scale factors.
+void ins_gps_ins_scale_correct(ins_gps_ins_t* base);
 /// Begins P anew.
 void ins_gps_ins_restart(ins_gps_ins_t* self, const ins_real sigma[INS_KF15_N]);
 /// Brings the covariance up to the last sample.

@@ -12,57 +12,77 @@ ins_real ins_gps_ins_covariance(const ins_gps_ins_t* self, unsigned i, unsigned 
     return self->kf.P[INS_KF15_ROW * i + j];
 }
 
-/// Where a row is not 0.
+/// A row without its zeros.
 typedef struct columns_t
 {
     unsigned n;
     uint_least8_t at[INS_KF15_N];
+    ins_real h[INS_KF15_N];
 } columns_t;
 
 static void find(const ins_real h[INS_KF15_N], columns_t* columns)
 {
-    columns->n = 0;
+    unsigned n = 0;
     for (unsigned i = 0; i < INS_KF15_N; i++)
     {
         if (h[i] != 0)
         {
-            columns->at[columns->n++] = (uint_least8_t)i;
+            columns->at[n] = (uint_least8_t)i;
+            columns->h[n] = h[i];
+            n++;
         }
     }
+    columns->n = n;
 }
 
-/// h_i P h_j'
-static ins_real row_product(const ins_gps_ins_t* self, const gps_ins_rows_t* rows, const columns_t* columns, unsigned i,
-                            unsigned j)
+/// a P b'
+static ins_real row_product(const ins_real* P, const columns_t* a, const columns_t* b)
 {
     ins_real sum = 0;
-    for (unsigned k = 0; k < columns[i].n; k++)
+    for (unsigned k = 0; k < a->n; k++)
     {
-        const unsigned a = columns[i].at[k];
+        const ins_real* const p = P + (unsigned)INS_KF15_ROW * a->at[k];
         ins_real row = 0;
-        for (unsigned m = 0; m < columns[j].n; m++)
+        for (unsigned m = 0; m < b->n; m++)
         {
-            const unsigned b = columns[j].at[m];
-            row += rows->h[j][b] * ins_gps_ins_covariance(self, a, b);
+            row += b->h[m] * p[b->at[m]];
         }
-        sum += rows->h[i][a] * row;
+        sum += a->h[k] * row;
     }
     return sum;
 }
 
-static void judge_rows(const ins_gps_ins_t* self, const columns_t* columns, gps_ins_rows_t* rows)
+static void judge_rows(ins_gps_ins_t* self, const columns_t* columns, gps_ins_rows_t* rows)
 {
+    ins_real P[3][3]; // h_i P h_j'
     ins_real l[3][3];
     ins_real d[3];
     ins_real e[3];
     rows->joint = 0;
     for (unsigned i = 0; i < rows->n; i++)
     {
+        for (unsigned j = 0; j <= i; j++)
+        {
+            P[i][j] = row_product(self->kf.P, &columns[i], &columns[j]);
+        }
+    }
+    if (self->form == GPS_INS_SCALE)
+    {
+        for (unsigned i = 0; i < rows->n; i++)
+        {
+            for (unsigned j = 0; j <= i; j++)
+            {
+                P[i][j] += ins_gps_ins_scale_product(self, rows->h[i], rows->h[j]);
+            }
+        }
+    }
+    for (unsigned i = 0; i < rows->n; i++)
+    {
         e[i] = rows->v[i];
-        d[i] = row_product(self, rows, columns, i, i) + rows->r[i];
+        d[i] = P[i][i] + rows->r[i];
         for (unsigned j = 0; j < i; j++)
         {
-            ins_real s = row_product(self, rows, columns, i, j);
+            ins_real s = P[i][j];
             for (unsigned k = 0; k < j; k++)
             {
                 s -= l[i][k] * l[j][k] * d[k];
@@ -96,11 +116,15 @@ static const ins_real* update_by(ins_gps_ins_t* self, const ins_real h[INS_KF15_
 {
     const unsigned index = columns->at[0];
     const int is_unit = columns->n == 1 && h[index] == 1;
-    if (self->ud)
+    if (self->form == GPS_INS_UD)
     {
         ins_kf15_ud_t* ud = gps_ins_ud(self);
         const ins_status_t status = is_unit ? ins_kf15_ud_update_state(ud, index, z) : ins_kf15_ud_update(ud, h, z);
         return status == INS_OK ? ud->K : 0;
+    }
+    if (self->form == GPS_INS_SCALE)
+    {
+        return ins_gps_ins_scale_update(self, h, z) == INS_OK ? self->kf.K : 0;
     }
     const ins_status_t status = is_unit ? ins_kf15_update_state(&self->kf, index, z) : ins_kf15_update(&self->kf, h, z);
     return status == INS_OK ? self->kf.K : 0;
@@ -111,7 +135,7 @@ ins_status_t ins_gps_ins_measure(ins_gps_ins_t* self, gps_ins_rows_t* rows, ins_
     ins_real x[INS_KF15_N] = {0};
     int positive = 1;
     columns_t columns[3];
-    if (self->ud)
+    if (self->form == GPS_INS_UD)
     {
         ins_kf15_ud_covariance(gps_ins_ud(self), self->kf.P);
     }
@@ -137,7 +161,7 @@ ins_status_t ins_gps_ins_measure(ins_gps_ins_t* self, gps_ins_rows_t* rows, ins_
         ins_innovation_t z = {rows->v[i], rows->r[i], 0, 0};
         for (unsigned k = 0; k < columns[i].n; k++)
         {
-            z.v -= rows->h[i][columns[i].at[k]] * x[columns[i].at[k]];
+            z.v -= columns[i].h[k] * x[columns[i].at[k]];
         }
         const ins_real* K = update_by(self, rows->h[i], &columns[i], &z);
         for (unsigned k = 0; K && k < INS_KF15_N; k++)
@@ -146,9 +170,13 @@ ins_status_t ins_gps_ins_measure(ins_gps_ins_t* self, gps_ins_rows_t* rows, ins_
         }
     }
     correct_all(self, x);
-    if (self->ud)
+    if (self->form == GPS_INS_UD)
     {
         ins_kf15_ud_covariance(gps_ins_ud(self), self->kf.P);
+    }
+    if (self->form == GPS_INS_SCALE)
+    {
+        ins_gps_ins_scale_correct(self);
     }
     return INS_OK;
 }

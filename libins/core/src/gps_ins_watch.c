@@ -56,6 +56,7 @@ static unsigned dead(const ins_gps_ins_t* self, unsigned first)
 
 static void watch_axes(ins_gps_ins_t* self, const ins_increment_t* raw)
 {
+    int repeats = 0;
     for (unsigned i = 0; i < 6; i++)
     {
         const ins_real x = (i < 3 ? raw->theta_b[i] : raw->v_b[i - 3]) / self->dt;
@@ -63,13 +64,14 @@ static void watch_axes(ins_gps_ins_t* self, const ins_increment_t* raw)
         {
             self->same[i] = 0;
         }
-        else if (self->same[i] < self->cfg.stuck)
+        else
         {
-            self->same[i]++;
+            repeats = 1;
+            self->same[i] = (uint16_t)(self->same[i] + (self->same[i] < self->cfg.stuck));
         }
         self->value[i] = x;
     }
-    const unsigned now = dead(self, 0) | dead(self, 3);
+    const unsigned now = repeats ? dead(self, 0) | dead(self, 3) : 0;
     for (unsigned fresh = now & ~(unsigned)self->stuck; fresh > 0; fresh &= fresh - 1)
     {
         self->count.imu_stuck++;

@@ -6,8 +6,6 @@
 #include "kalman_internal.h"
 #include "kf15_internal.h"
 
-#define KF15_FALL 128 ///< a variance that falls by more is put right: what is left of it has lost as many digits
-
 ins_status_t ins_kf15_init(ins_kf15_t* self, const ins_real sigma[INS_KF15_N])
 {
     for (unsigned i = 0; i < INS_KF15_N; i++)
@@ -89,8 +87,7 @@ void ins_kf15_propagate(ins_kf15_t* self, const ins_kf15_model_t* model)
     }
 }
 
-/// P = P - K g with K = g / s. As sqrt(1/s) g times itself, it stays symmetric to the last bit.
-static void downdate(ins_kf15_t* restrict self, const ins_real* restrict g, ins_real s)
+void ins_kf15_downdate(ins_kf15_t* restrict self, const ins_real* restrict g, ins_real s)
 {
     const ins_real per_s = 1 / s;
     const ins_real root = ins_sqrt(per_s);
@@ -143,7 +140,7 @@ ins_status_t ins_kf15_update_state(ins_kf15_t* self, unsigned index, ins_innovat
     {
         return status;
     }
-    downdate(self, g, g[index] + z->r);
+    ins_kf15_downdate(self, g, g[index] + z->r);
     // What P h' = r K says, without the cancellation.
     const ins_real r = z->r;
     ins_real* const P = self->P;
@@ -249,7 +246,7 @@ ins_status_t ins_kf15_update(ins_kf15_t* self, const ins_real h[INS_KF15_N], ins
     {
         return status;
     }
-    downdate(self, g, hph + z->r);
+    ins_kf15_downdate(self, g, hph + z->r);
     if (hph > KF15_FALL * z->r)
     {
         restore(self, &row, pivot, h[pivot], z->r);

@@ -9,6 +9,10 @@
 
 /// Elements of a row that loops go over: the one beyond the last is 0, and stays so.
 #define KF15_COLUMNS (INS_VECTORS ? INS_KF15_ROW : INS_KF15_N)
+#define KF15_FALL    128 ///< a variance that falls by more is put right: what is left of it has lost as many digits
+
+/// P = P - K g with K = g / s. As sqrt(1/s) g times itself, it stays symmetric to the last bit. \param[in] g  [INS_KF15_ROW]
+void ins_kf15_downdate(ins_kf15_t* restrict self, const ins_real* restrict g, ins_real s);
 
 /// (C_nb dt b)(i), b the first of three biases.
 static inline ins_real kf15_bias(const ins_kf15_model_t* m, unsigned i, const ins_real* b, unsigned d)

@@ -18,6 +18,7 @@ pub const INS_GPS_DR_HEADINGS: u32 = 8;
 pub const INS_KF15_N: u32 = 15;
 pub const INS_KF15_ROW: u32 = 16;
 pub const INS_GPS_INS_PAST: u32 = 8;
+pub const INS_KF15_SCALE_N: u32 = 6;
 pub const INS_SIXACC_MAX: u32 = 12;
 pub const INS_GYRO_FREE_N: u32 = 18;
 pub const INS_HS_BLOCK_MAX: u32 = 32;
@@ -1416,6 +1417,64 @@ pub struct ins_gps_ins_state_t {
     pub P_p: [ins_real; 9usize],
     pub sigma: [ins_real; 15usize],
 }
+#[doc = "What is known of them before. A standard deviation of 0: there is none, and none is estimated."]
+#[repr(C)]
+#[derive(Debug, Default, Copy, Clone)]
+pub struct ins_kf15_scale_sensors_t {
+    #[doc = "0.01: a hundredth; up to INS_KF15_SCALE_MAX"]
+    pub gyro_sigma: ins_real,
+    #[doc = "0.01: a hundredth; up to INS_KF15_SCALE_MAX"]
+    pub accel_sigma: ins_real,
+    #[doc = "time constants [s], at least INS_STRAPDOWN_PERIOD_MAX; 1e6: all but constant"]
+    pub gyro_tau: ins_real,
+    #[doc = "time constants [s], at least INS_STRAPDOWN_PERIOD_MAX; 1e6: all but constant"]
+    pub accel_tau: ins_real,
+}
+#[doc = "Owned by the caller; readable. Start with ins_kf15_scale_init()."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_kf15_scale_t {
+    #[doc = "of state i, 15 to 20 being s, with s j: at 6 i + j"]
+    pub B: [ins_real; 126usize],
+    #[doc = "gain of the last update that was not refused"]
+    pub K: [ins_real; 6usize],
+    pub sensors: ins_kf15_scale_sensors_t,
+}
+impl Default for ins_kf15_scale_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
+extern "C" {
+    #[doc = "Not correlated with anything yet. \\return INS_E_RANGE, self unchanged: a figure is out of its range, or not a number."]
+    pub fn ins_kf15_scale_init(self_: *mut ins_kf15_scale_t, sensors: *const ins_kf15_scale_sensors_t) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "One step of all 21. \\param[in,out] kf  as by ins_kf15_propagate()."]
+    #[doc = "\\param[in] theta_b, v_b  [3] of the step, as ins_kf15_model() was told [rad], [m/s]."]
+    pub fn ins_kf15_scale_propagate(
+        self_: *mut ins_kf15_scale_t,
+        kf: *mut ins_kf15_t,
+        model: *const ins_kf15_model_t,
+        theta_b: *const ins_real,
+        v_b: *const ins_real,
+    );
+}
+extern "C" {
+    #[doc = "One scalar z = h x + h_s s + noise. \\param[in] h  [15]; one of it at least is not 0. \\param[in] h_s  [6] gyros, accelerometers."]
+    #[doc = "\\return as ins_kf15_update(); kf->K and self->K are the gain."]
+    pub fn ins_kf15_scale_update(
+        self_: *mut ins_kf15_scale_t,
+        kf: *mut ins_kf15_t,
+        h: *const ins_real,
+        h_s: *const ins_real,
+        z: *mut ins_innovation_t,
+    ) -> ins_status_t;
+}
 #[doc = "Where the antenna was, for fixes that come late."]
 #[repr(C)]
 #[derive(Debug, Default, Copy, Clone)]
@@ -1486,8 +1545,8 @@ pub struct ins_gps_ins_t {
     pub held: uint_least8_t,
     #[doc = "1: model holds cfg.sensors alone"]
     pub plain: uint_least8_t,
-    #[doc = "1: base of an ins_gps_ins_ud_t"]
-    pub ud: uint_least8_t,
+    #[doc = "what it is the base of"]
+    pub form: uint_least8_t,
 }
 impl Default for ins_gps_ins_t {
     fn default() -> Self {
@@ -1515,6 +1574,30 @@ impl Default for ins_gps_ins_ud_t {
         }
     }
 }
+#[doc = "The same with scale factors. Start with ins_gps_ins_scale_init(); base goes to all other functions. Read gyro, accel; kf has"]
+#[doc = "their covariance, 0.01 of standard deviation: a hundredth."]
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct ins_gps_ins_scale_t {
+    pub base: ins_gps_ins_t,
+    pub kf: ins_kf15_scale_t,
+    #[doc = "a sensor reads (1 + this) times the truth, and its bias"]
+    pub gyro: [ins_real; 3usize],
+    #[doc = "a sensor reads (1 + this) times the truth, and its bias"]
+    pub accel: [ins_real; 3usize],
+    #[doc = "angle since the covariance's last step [rad]"]
+    pub pending_theta: [ins_real; 3usize],
+    pub moved: [ins_real; 6usize],
+}
+impl Default for ins_gps_ins_scale_t {
+    fn default() -> Self {
+        let mut s = ::core::mem::MaybeUninit::<Self>::uninit();
+        unsafe {
+            ::core::ptr::write_bytes(s.as_mut_ptr(), 0, 1);
+            s.assume_init()
+        }
+    }
+}
 extern "C" {
     #[doc = "A low-cost MEMS IMU (0.3 deg/sqrt(h), 0.1 m/s/sqrt(h), 0.1 deg/s and 50 mg/1000 s), an antenna at the IMU, gates of 99.9 %,"]
     #[doc = "no detector of rest."]
@@ -1532,6 +1615,15 @@ extern "C" {
     pub fn ins_gps_ins_ud_init(
         self_: *mut ins_gps_ins_ud_t,
         cfg: *const ins_gps_ins_config_t,
+        start: *const ins_gps_ins_start_t,
+    ) -> ins_status_t;
+}
+extern "C" {
+    #[doc = "As ins_gps_ins_init(); scale factors begin at 0. \\return INS_E_RANGE also for what ins_kf15_scale_init() refuses."]
+    pub fn ins_gps_ins_scale_init(
+        self_: *mut ins_gps_ins_scale_t,
+        cfg: *const ins_gps_ins_config_t,
+        sensors: *const ins_kf15_scale_sensors_t,
         start: *const ins_gps_ins_start_t,
     ) -> ins_status_t;
 }

@@ -16,6 +16,7 @@
 #ifndef INS_GPS_INS_H_INCLUDED
 #define INS_GPS_INS_H_INCLUDED
 #include "ins/gps_ins_types.h"
+#include "ins/kf15_scale.h"
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -65,7 +66,7 @@ typedef struct ins_gps_ins_t
     ins_gps_ins_past_t past[INS_GPS_INS_PAST];
     uint_least8_t newest, held;
     uint_least8_t plain; ///< 1: model holds cfg.sensors alone
-    uint_least8_t ud;    ///< 1: base of an ins_gps_ins_ud_t
+    uint_least8_t form;  ///< what it is the base of
 } ins_gps_ins_t;
 
 /// The same with the covariance as P = U D U', for float with P0/R above 1e8. Start with ins_gps_ins_ud_init(); base goes to all
@@ -75,6 +76,18 @@ typedef struct ins_gps_ins_ud_t
     ins_gps_ins_t base;
     ins_kf15_ud_t ud;
 } ins_gps_ins_ud_t;
+
+/// The same with scale factors. Start with ins_gps_ins_scale_init(); base goes to all other functions. Read gyro, accel; kf has
+/// their covariance, 0.01 of standard deviation: a hundredth.
+typedef struct ins_gps_ins_scale_t
+{
+    ins_gps_ins_t base;
+    ins_kf15_scale_t kf;
+    ins_real gyro[3], accel[3]; ///< a sensor reads (1 + this) times the truth, and its bias
+    // Private.
+    ins_real pending_theta[3]; ///< angle since the covariance's last step [rad]
+    ins_real moved[INS_KF15_SCALE_N];
+} ins_gps_ins_scale_t;
 
 /// A low-cost MEMS IMU (0.3 deg/sqrt(h), 0.1 m/s/sqrt(h), 0.1 deg/s and 50 mg/1000 s), an antenna at the IMU, gates of 99.9 %,
 /// no detector of rest.
@@ -87,6 +100,9 @@ INS_API ins_status_t ins_gps_ins_init(ins_gps_ins_t* self, const ins_gps_ins_con
 /// As ins_gps_ins_init().
 INS_API ins_status_t ins_gps_ins_ud_init(ins_gps_ins_ud_t* self, const ins_gps_ins_config_t* cfg,
                                          const ins_gps_ins_start_t* start);
+/// As ins_gps_ins_init(); scale factors begin at 0. \return INS_E_RANGE also for what ins_kf15_scale_init() refuses.
+INS_API ins_status_t ins_gps_ins_scale_init(ins_gps_ins_scale_t* self, const ins_gps_ins_config_t* cfg,
+                                            const ins_kf15_scale_sensors_t* sensors, const ins_gps_ins_start_t* start);
 
 /// Next IMU sample.
 /// \param[in] t_ns  end of the interval, any time base, within +-INS_GNSS_TIME_MAX_NS. \param[in] dt  its length [s].

@@ -28,6 +28,7 @@
 #include "ins/ins_math.h"
 #include "ins/kalman.h"
 #include "ins/kf15.h"
+#include "ins/kf15_scale.h"
 #include "ins/link.h"
 #include "ins/markov.h"
 #include "ins/nav_block.h"
