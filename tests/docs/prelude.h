@@ -7,6 +7,7 @@
 #include "emu_8051/acq_board.h"
 #include "emu_f2812/f2812.h"
 #include "ins_dds/dds.h"
+#include "ins_dds/outbox.h"
 #include "ins_dds/raw.h"
 #include "ins_dds/ros.h"
 #include "ins_nav/nav.h"
@@ -26,6 +27,8 @@ extern ins_nav_t nav;
 extern ins_nav_state_t state;
 extern ins_dds_t* dds;
 extern ins_dds_raw_t* raw;
+extern ins_dds_outbox_t* outbox;
+extern ins_dds_message_t outgoing;
 extern ins_ros_t* ros;
 extern ins_navigation_t navigation;
 extern int64_t now_ns;

@@ -45,11 +45,15 @@ typedef struct totals_t
 static int hand_on(const queue_item_t* item, ins_nav_solver_t* solver, output_t* output, const options_t* options,
                    totals_t* totals, char* error, size_t size)
 {
+    const int64_t time_ns = wall_ns(item->arrived_ns);
+    ins_navigation_t navigation;
     if (options->input == INPUT_NAV)
     {
         totals->missed += item->is.solution.lost;
-        return output_solution(output, &item->is.solution, NULL, &stop, error, size) == 0 ? 1 : -1;
+        ins_navigation_from_solution(&item->is.solution, time_ns, &navigation);
+        return output_solution(output, &item->is.solution, &navigation, &stop, error, size) == 0 ? 1 : -1;
     }
+    output_sample(output, &item->is.sample, &options->nav, time_ns);
     ins_nav_state_t state;
     if (ins_nav_solver_step(solver, &item->is.sample, &state) != INS_OK)
     {
@@ -57,7 +61,8 @@ static int hand_on(const queue_item_t* item, ins_nav_solver_t* solver, output_t*
         return 0;
     }
     totals->missed = state.missed;
-    return output_state(output, &state, NULL, &stop, error, size) == 0 ? 1 : -1;
+    ins_navigation_from_state(&state, time_ns, &navigation);
+    return output_state(output, &state, &navigation, &stop, error, size) == 0 ? 1 : -1;
 }
 
 /// The computing half, until the queue is closed, the limit is reached or the output fails.
@@ -100,14 +105,16 @@ static void summary(const receiver_t* r, const output_t* output, const totals_t*
           "\"unsent\":%llu,"
           "\"accepted\":%llu,\"lost\":%llu,\"invalid\":%llu,\"duplicates\":%llu,\"corrupt\":%llu,\"timeouts\":%llu,"
           "\"stray\":%llu,"
-          "\"published\":%llu,\"unpublished\":%llu,\"unwritten\":%llu,\"age_mean_ms\":%.3f,\"age_max_ms\":%.3f",
+          "\"published\":%llu,\"unpublished\":%llu,\"dropped\":%llu,\"unwritten\":%llu,\"age_mean_ms\":%.3f,\"age_max_"
+          "ms\":%.3f",
           reasons[reason], (unsigned long long)t->states, (unsigned long long)t->missed,
           (unsigned long long)r->overruns, (unsigned long long)r->octets, (unsigned long long)r->reopens,
           (unsigned long long)r->unsent, (unsigned long long)c->accepted, (unsigned long long)c->lost,
           (unsigned long long)c->invalid, (unsigned long long)c->duplicates, (unsigned long long)c->corrupt,
-          (unsigned long long)c->timeouts, (unsigned long long)c->stray, (unsigned long long)output->published,
-          (unsigned long long)output->unpublished, (unsigned long long)output->unwritten,
-          t->states > 0 ? t->age_sum_s / (double)t->states * 1e3 : 0.0, t->age_max_s * 1e3);
+          (unsigned long long)c->timeouts, (unsigned long long)c->stray, (unsigned long long)output->counts.published,
+          (unsigned long long)output->counts.refused, (unsigned long long)output->counts.dropped,
+          (unsigned long long)output->unwritten, t->states > 0 ? t->age_sum_s / (double)t->states * 1e3 : 0.0,
+          t->age_max_s * 1e3);
 }
 
 static int run(const options_t* options, receiver_t* receiver, queue_t* queue, output_t* output)
@@ -127,6 +134,7 @@ static int run(const options_t* options, receiver_t* receiver, queue_t* queue, o
     if (pthread_create(&thread, NULL, receive_thread, receiver) != 0)
     {
         fprintf(stderr, "ins-navd: cannot start the receiving thread\n");
+        output_close(output);
         return 2;
     }
     compute(queue, &solver, output, options, &totals);
@@ -140,6 +148,7 @@ static int run(const options_t* options, receiver_t* receiver, queue_t* queue, o
                     ? "octets came, but no right block; compare --baud and --input with the firmware"
                     : "octets came, but no right block; compare --baud, --block-len and --seq with the firmware");
     }
+    output_close(output); // publishes what waits, so that it counts
     summary(receiver, output, &totals, reason);
     return reason == STOP_TIMEOUT || reason == STOP_OUTPUT ? 1 : 0;
 }
@@ -179,6 +188,5 @@ int main(int argc, char** argv)
     }
     const int result = run(&options, &receiver, &queue, &output);
     queue_destroy(&queue);
-    output_close(&output);
     return result;
 }

@@ -8,6 +8,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #define WAIT_MS 100
@@ -67,14 +68,8 @@ static int write_line(output_t* self, const char* line, size_t length, const ato
     return 0;
 }
 
-static int finish(output_t* self, int published, const char* line, size_t length, const atomic_int* stop, char* error,
-                  size_t size)
+static int finish(output_t* self, const char* line, size_t length, const atomic_int* stop, char* error, size_t size)
 {
-    if (self->publisher != NULL)
-    {
-        self->published += published != 0;
-        self->unpublished += published == 0;
-    }
     if (self->fd >= 0 && write_line(self, line, length, stop) != 0)
     {
         (void)snprintf(error, size, "cannot write %s: %s", self->name, strerror(errno));
@@ -87,23 +82,46 @@ int output_state(output_t* self, const ins_nav_state_t* state, const ins_navigat
                  const atomic_int* stop, char* error, size_t size)
 {
     char line[INS_NAV_JSON_MAX];
-    const int published = self->publisher != NULL && publisher_put(self->publisher, state, navigation);
+    if (self->publisher != NULL)
+    {
+        publisher_put(self->publisher, state, navigation);
+    }
     const size_t length = self->fd >= 0 ? ins_nav_state_json(state, line, sizeof line) : 0;
-    return finish(self, published, line, length, stop, error, size);
+    return finish(self, line, length, stop, error, size);
 }
 
 int output_solution(output_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation,
                     const atomic_int* stop, char* error, size_t size)
 {
     char line[INS_NAV_JSON_MAX];
-    const int published = self->publisher != NULL && publisher_put_solution(self->publisher, solution, navigation);
+    if (self->publisher != NULL)
+    {
+        publisher_put_solution(self->publisher, solution, navigation);
+    }
     const size_t length = self->fd >= 0 ? ins_nav_solution_json(solution, line, sizeof line) : 0;
-    return finish(self, published, line, length, stop, error, size);
+    return finish(self, line, length, stop, error, size);
+}
+
+void output_sample(output_t* self, const ins_nav_sample_t* sample, const ins_nav_config_t* nav, int64_t time_ns)
+{
+    if (self->publisher != NULL)
+    {
+        publisher_put_sample(self->publisher, sample, nav, time_ns);
+    }
+}
+
+int64_t wall_ns(uint64_t monotonic_ns)
+{
+    struct timespec wall;
+    struct timespec now;
+    (void)clock_gettime(CLOCK_REALTIME, &wall);
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)(wall.tv_sec - now.tv_sec) * 1000000000 + (wall.tv_nsec - now.tv_nsec) + (int64_t)monotonic_ns;
 }
 
 void output_close(output_t* self)
 {
-    publisher_close(self->publisher);
+    self->counts = publisher_close(self->publisher);
     self->publisher = NULL;
     if (self->fd >= 0)
     {

@@ -2,25 +2,25 @@
 /// \brief  States to DDS (ins_dds/dds.h) and to ROS 2 topics on it (ins_dds/ros.h).
 /// SPDX-License-Identifier: MIT
 #include "ins_dds/dds.h"
-#include "ins_dds/ros.h"
+#include "ins_dds/outbox.h"
 #include "output.h"
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #define CONFIG_MAX 65536
 
-#define DIAGNOSE_NS 1000000000 ///< between two lines of /diagnostics
+#define FIX_AGE_NONE 25.5 ///< of a solution: that or longer, or none [s]
+#define OUTBOX_SIZE  256  ///< messages that may wait for DDS
 
 struct publisher_t
 {
     ins_dds_t* dds; ///< NULL = no states
     ins_ros_t* ros; ///< NULL = no ROS topics
-    const char* source;
-    int64_t diagnosed_ns;
-    uint64_t lost; ///< as last diagnosed
+    ins_dds_outbox_t* outbox;
+    uint64_t sample; ///< index of the last
 };
 
 static void log_line(void* context, const char* line)
@@ -92,6 +92,11 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
     cfg.domain = options->domain;
     const ins_dds_kind_t kind = options->input == INPUT_NAV ? INS_DDS_SOLUTION : INS_DDS_STATE;
     ins_dds_config_carry(&cfg, kind);
+    ins_dds_config_carry(&cfg, INS_DDS_STATUS);
+    if (options->input == INPUT_CODES)
+    {
+        ins_dds_config_carry(&cfg, INS_DDS_RAW_IMU);
+    }
     cfg.topic[kind].name = options->topic != NULL ? options->topic : cfg.topic[kind].name;
     cfg.partition = options->partition;
     cfg.strength = options->strength;
@@ -122,97 +127,100 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
         cfg.security = &security;
     }
     publisher_t* self = calloc(1, sizeof *self);
-    if (self == NULL || status != INS_DDS_OK || !open_both(self, options, &cfg))
+    if (self == NULL || status != INS_DDS_OK || !open_both(self, options, &cfg) ||
+        ins_dds_outbox_open(self->dds, self->ros, options->source, OUTBOX_SIZE, &self->outbox) != INS_DDS_OK)
     {
         (void)snprintf(error, size, "%s%s%s", options->dds_config != NULL ? options->dds_config : "",
                        options->dds_config != NULL ? ": " : "", self == NULL ? "memory is out" : ins_dds_error_text());
         publisher_close(self);
         self = NULL;
     }
-    else
-    {
-        self->source = options->source;
-    }
     free(text);
     return self;
 }
 
-static int64_t wall_ns(void)
+static void put_status(publisher_t* self, ins_dds_status_t* status, uint32_t alerts, const ins_nav_counts_t* counts)
 {
-    struct timespec now;
-    (void)clock_gettime(CLOCK_REALTIME, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+    ins_dds_message_t message = {.kind = INS_DDS_STATUS};
+    status->alerts = alerts;
+    status->counts = *counts;
+    message.is.status = *status;
+    (void)ins_dds_outbox_put(self->outbox, &message);
 }
 
-/// Once a second, how the link does.
-static void diagnose(publisher_t* self, const ins_nav_counts_t* counts, int64_t now_ns)
+static int put_instant(publisher_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation)
 {
-    if (now_ns - self->diagnosed_ns < DIAGNOSE_NS)
-    {
-        return;
-    }
-    const struct
-    {
-        const char* key;
-        uint64_t count;
-    } all[] = {{"accepted", counts->accepted}, {"lost", counts->lost},
-               {"invalid", counts->invalid},   {"duplicates", counts->duplicates},
-               {"corrupt", counts->corrupt},   {"timeouts", counts->timeouts},
-               {"stray", counts->stray}};
-    enum
-    {
-        COUNTS = sizeof all / sizeof all[0],
-        DIGITS = 24
-    };
-    ins_ros_value_t values[COUNTS];
-    char text[COUNTS][DIGITS];
-    for (int i = 0; i < COUNTS; i++)
-    {
-        (void)snprintf(text[i], DIGITS, "%llu", (unsigned long long)all[i].count);
-        values[i] = (ins_ros_value_t){all[i].key, text[i]};
-    }
-    const int loses = counts->lost > self->lost;
-    (void)ins_ros_diagnose(self->ros, now_ns, loses ? INS_ROS_LEVEL_WARN : INS_ROS_LEVEL_OK,
-                           loses ? "samples are lost on the link" : "samples arrive", values, COUNTS);
-    self->lost = counts->lost;
-    self->diagnosed_ns = now_ns;
+    ins_dds_message_t message = {.kind = INS_DDS_STATE};
+    message.is.instant.state = *state;
+    message.is.instant.navigation = *navigation;
+    return ins_dds_outbox_put(self->outbox, &message);
 }
 
-static int put_ros(publisher_t* self, const ins_navigation_t* navigation, const ins_nav_counts_t* counts)
+void publisher_put(publisher_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation)
 {
-    diagnose(self, counts, navigation->time_ns);
-    return ins_ros_publish(self->ros, navigation) == INS_DDS_OK;
+    ins_dds_status_t status;
+    (void)put_instant(self, state, navigation);
+    ins_dds_status_from_navigation(navigation, &status);
+    put_status(self, &status,
+               ((state->status & INS_NAV_CLIPPED) != 0 ? (uint32_t)INS_DDS_ALERT_CLIPPED : 0u) |
+                   ((state->status & INS_NAV_DISAGREE) != 0 ? (uint32_t)INS_DDS_ALERT_DISAGREE : 0u),
+               &state->counts);
 }
 
-int publisher_put(publisher_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation)
+void publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation)
 {
-    const int64_t now_ns = wall_ns();
-    ins_navigation_t own;
-    ins_navigation_from_state(state, now_ns, &own);
-    const ins_navigation_t* const tell = navigation != NULL ? navigation : &own;
-    const int states =
-        self->dds == NULL || ins_dds_publish_navigation(self->dds, state, tell, self->source, now_ns) == INS_DDS_OK;
-    return (self->ros == NULL || put_ros(self, tell, &state->counts)) && states;
-}
-
-int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation)
-{
-    const int64_t now_ns = wall_ns();
-    ins_navigation_t own;
+    ins_dds_message_t message = {.kind = INS_DDS_SOLUTION};
     ins_nav_state_t state;
-    ins_navigation_from_solution(solution, now_ns, &own);
+    ins_dds_status_t status;
+    message.is.solution = *solution;
+    (void)ins_dds_outbox_put(self->outbox, &message);
     ins_nav_state_from_solution(solution, &state);
-    const int solutions =
-        self->dds == NULL || ins_dds_publish_solution(self->dds, solution, self->source, now_ns) == INS_DDS_OK;
-    return publisher_put(self, &state, navigation != NULL ? navigation : &own) && solutions;
+    (void)put_instant(self, &state, navigation);
+    ins_dds_status_from_navigation(navigation, &status);
+    if (status.mode == INS_DDS_MODE_AIDED && (solution->status & INS_NAV_BLOCK_FILTER) == 0)
+    {
+        status.mode = INS_DDS_MODE_DEAD_RECKONING;
+    }
+    status.fix_age_s = solution->fix_age_s < FIX_AGE_NONE ? solution->fix_age_s : (double)NAN;
+    status.sats = solution->sats;
+    put_status(self, &status, (solution->status & INS_NAV_BLOCK_GATED) != 0 ? INS_DDS_ALERT_REFUSED : 0,
+               &solution->counts);
 }
 
-void publisher_close(publisher_t* self)
+void publisher_put_sample(publisher_t* self, const ins_nav_sample_t* sample, const ins_nav_config_t* nav,
+                          int64_t time_ns)
 {
+    ins_dds_message_t message = {.kind = INS_DDS_RAW_IMU};
+    ins_dds_raw_imu_t* const raw = &message.is.raw_imu;
+    if (nav->channels != 3)
+    {
+        return; // six accelerometers are no IMU
+    }
+    raw->time_ns = time_ns;
+    raw->index = sample->index;
+    raw->t_s = (double)sample->index * nav->period_s;
+    raw->dt_s = (double)(sample->index - self->sample) * nav->period_s;
+    for (int i = 0; i < 3; i++)
+    {
+        raw->gyro_b[i] = (sample->code[i] - nav->null_code[i]) * nav->lsb_rad_s[i];
+        raw->accel_b[i] = (double)NAN;
+    }
+    raw->temperature_k = (double)NAN;
+    self->sample = sample->index;
+    (void)ins_dds_outbox_put(self->outbox, &message);
+}
+
+publisher_counts_t publisher_close(publisher_t* self)
+{
+    publisher_counts_t counts = {0, 0, 0};
     if (self != NULL)
     {
+        ins_dds_outbox_counts_t all = {0, 0, 0};
+        ins_dds_outbox_close(self->outbox, &all);
         ins_ros_close(self->ros); // it may be in the domain that the states' handle owns
         ins_dds_close(self->dds);
         free(self);
+        counts = (publisher_counts_t){all.published, all.refused, all.dropped};
     }
+    return counts;
 }

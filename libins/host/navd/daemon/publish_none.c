@@ -12,23 +12,31 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
     return NULL;
 }
 
-int publisher_put(publisher_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation)
+void publisher_put(publisher_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation)
 {
     (void)self;
-    (void)navigation;
     (void)state;
-    return 0;
-}
-
-int publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation)
-{
-    (void)self;
     (void)navigation;
-    (void)solution;
-    return 0;
 }
 
-void publisher_close(publisher_t* self)
+void publisher_put_solution(publisher_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation)
 {
     (void)self;
+    (void)solution;
+    (void)navigation;
+}
+
+void publisher_put_sample(publisher_t* self, const ins_nav_sample_t* sample, const ins_nav_config_t* nav,
+                          int64_t time_ns)
+{
+    (void)self;
+    (void)sample;
+    (void)nav;
+    (void)time_ns;
+}
+
+publisher_counts_t publisher_close(publisher_t* self)
+{
+    (void)self;
+    return (publisher_counts_t){0, 0, 0};
 }

@@ -98,7 +98,9 @@ static void hand_on(daemon_t* self, const ins_nav_solution_t* solution)
         }
         self->shown = tasks;
     }
-    if (output_solution(&self->output, solution, NULL, &stop, error, sizeof error) != 0)
+    ins_navigation_t navigation;
+    ins_navigation_from_solution(solution, wall_ns(self->last_ns), &navigation);
+    if (output_solution(&self->output, solution, &navigation, &stop, error, sizeof error) != 0)
     {
         fprintf(stderr, "ins-gpsdr: %s\n", error);
         end(END_OUTPUT);
@@ -202,13 +204,14 @@ static void summary(const daemon_t* self)
     event(&self->options.shared, "summary",
           ",\"reason\":\"%s\",\"solutions\":%llu,\"samples\":%llu,\"invalid\":%llu,\"corrupt\":%llu,\"gaps\":%llu,"
           "\"restarts\":%llu,\"repeated\":%llu,\"fixes\":%llu,\"no_fixes\":%llu,\"refused\":%llu,\"bad_nmea\":%llu,"
-          "\"reopens\":%llu,\"published\":%llu,\"unpublished\":%llu,\"unwritten\":%llu",
+          "\"reopens\":%llu,\"published\":%llu,\"unpublished\":%llu,\"dropped\":%llu,\"unwritten\":%llu",
           reasons[atomic_load(&stop)], (unsigned long long)self->solutions, (unsigned long long)c->samples,
           (unsigned long long)c->invalid, (unsigned long long)c->corrupt, (unsigned long long)c->gaps,
           (unsigned long long)c->restarts, (unsigned long long)c->repeated, (unsigned long long)c->fixes,
           (unsigned long long)c->no_fixes, (unsigned long long)c->refused, (unsigned long long)bad,
-          (unsigned long long)self->reopens, (unsigned long long)self->output.published,
-          (unsigned long long)self->output.unpublished, (unsigned long long)self->output.unwritten);
+          (unsigned long long)self->reopens, (unsigned long long)self->output.counts.published,
+          (unsigned long long)self->output.counts.refused, (unsigned long long)self->output.counts.dropped,
+          (unsigned long long)self->output.unwritten);
 }
 
 static int open_lines(daemon_t* self)
@@ -257,7 +260,7 @@ int main(int argc, char** argv)
                 "ins-gpsdr: no sentence of the board for %g s; are --board and --baud right, does it send $PINSD?\n",
                 self.options.shared.timeout_s);
     }
+    output_close(&self.output); // publishes what waits, so that it counts
     summary(&self);
-    output_close(&self.output);
     return reason == END_TIMEOUT || reason == END_OUTPUT ? 1 : 0;
 }

@@ -77,7 +77,7 @@ typedef struct ins_dds_status_t
     uint32_t sats;                                                         ///< of the last fix
     uint64_t fixes;                                                        ///< used
     uint64_t position_refused, velocity_refused, aid_refused, imu_refused; ///< as ins_gps_ins_count_t has them
-    uint64_t published;                                                    ///< messages handed to DDS
+    uint64_t published;                                                    ///< states handed to DDS
     uint64_t dropped;                                                      ///< messages that found the outbox full
     ins_nav_counts_t counts;
 } ins_dds_status_t;
