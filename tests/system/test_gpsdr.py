@@ -14,7 +14,7 @@ from conftest import ROOT
 from libins.endpoint import Pty
 from libins.errors import UsageError
 
-from libins import core, replay_live
+from libins import core, replay, replay_config, replay_live, replay_reckoning, replay_score
 
 pytestmark = pytest.mark.wall_clock
 DATA = ROOT / "tests/data/smartloc_potsdamer"
@@ -103,6 +103,45 @@ def test_a_drive_between_buildings(recordings):
     assert ours[1] < 0.8 * raw[1]
     assert found[1] < 0.5 * raw[1]
     assert found[2] < 0.4 * raw[2]
+
+
+def replayed(**overrides):
+    """Times and errors of `ins replay`'s states, and its summary."""
+    config = replay_config.load(DATA / "potsdamer.toml", overrides)
+    drive = replay.read(config, DATA)
+    solution = replay_reckoning.solve(config, drive, lambda share: None)
+    states = solution.runs[0].states
+    return states[:, 0], errors(states[:, 0], states[:, 1:3]), replay_score.summary(config, drive, solution)
+
+
+@pytest.mark.parametrize(
+    ("name", "overrides"),
+    [("ours", {}), ("paper-printed", {"filter": "gps_dr_paper", "gps_dr.reading": "printed"})],
+)
+def test_a_replay_says_what_the_daemon_says(recordings, name, overrides):
+    """But for the board's counts of 4 cm and codes of 0.044 deg/s."""
+    t, e = navigate(recordings, "--filter", name)
+    t_replay, e_replay, result = replayed(**overrides)
+    apart = np.abs(np.interp(t, t_replay, e_replay) - e)
+    print(f"{name}: errors apart median {np.median(apart):.2f} m, 95 % {np.percentile(apart, 95):.2f} m")
+    assert np.median(apart) < 1.0
+    assert figures(e_replay)[0] == pytest.approx(figures(e)[0], rel=0.1)
+    assert figures(e_replay)[1] == pytest.approx(figures(e)[1], rel=0.1)
+    aided = result["aided"]
+    assert aided["horizontal_median_m"] == pytest.approx(figures(e)[0], rel=0.1), "at the truth's own times"
+    assert (aided["vertical_rms_m"], result["against"]) == (None, "reference")
+    assert result["filter_counts"]["fixes taken"] == 282
+
+
+def test_a_replay_withholds_fixes():
+    outages = {"length_s": 60, "period_s": 70, "start_s": 60}
+    t, _, result = replayed(outages=outages)
+    found = result["outages"]
+    assert [o["from_s"] for o in found["list"]] == [60.0, 130.0, 200.0]
+    assert found["median_m"] < 40
+    assert all(0.2 < o["end_m"] / o["sigma_m"] < 2.0 for o in found["list"]), "as sure as it may be"
+    assert result["filter_counts"]["seconds without a fix"] in range(176, 181)
+    assert result["filter_counts"]["fixes taken"] + result["filter_counts"]["seconds without a fix"] == 282
 
 
 def test_a_minute_without_fixes(recordings):

@@ -15,6 +15,7 @@ from libins.errors import UsageError
 from libins import _post, alignment, replay, replay_config, replay_score
 
 WALK = Path(__file__).resolve().parents[1] / "data/walk_0827"
+POTSDAMER = WALK.parent / "smartloc_potsdamer/potsdamer.toml"
 BENCH = "INS_BENCH" in os.environ
 SEEDS = range(1, 13 if BENCH else 2)
 SECONDS = 549.0 if BENCH else 200.0
@@ -203,6 +204,42 @@ def test_a_wrong_configuration(ins, key, value, words):
     assert "Traceback" not in done.stderr
     for word in words:
         assert word in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("--smooth",), ("smooth", "no smoother", "gps_ins")),
+        (("--set", 'filter="gps_ins"'), ("imu", "is missing", "gps_dr")),
+        (("--set", 'wheels.columns=["time", "speed", "-"]'), ("odometry.csv", "no yaw_rate")),
+        (("--set", "gps_dr.uere_m=0"), ("gps_dr.uere_m", "0")),
+        (("--set", "gps_dr.tau_fix_s=nan"), ("gps_dr.tau_fix_s", "nan")),
+    ],
+)
+def test_what_dead_reckoning_cannot_do(ins, change, words):
+    done = ins("replay", POTSDAMER, *change)
+    assert done.returncode == 2, done.stderr
+    assert "Traceback" not in done.stderr
+    for word in words:
+        assert word in done.stderr
+
+
+def test_dead_reckoning_needs_wheels(ins):
+    done = ins("replay", WALK / "walk.toml", "--set", 'filter="gps_dr"')
+    assert done.returncode == 2
+    assert "wheels: is missing" in done.stderr
+
+
+def test_every_file_of_dead_reckoning(ins, tmp_path):
+    names = {name: tmp_path / f"drive.{name}" for name in ("csv", "geojson", "html", "json")}
+    done = ins("replay", POTSDAMER, *(part for name, path in names.items() for part in (f"--{name}", path)))
+    assert done.returncode == 0, done.stderr
+    table = np.genfromtxt(names["csv"], delimiter=",", names=True)
+    assert np.isfinite(table["heading_deg"]).all()
+    assert np.isnan(table["ba_x_m_s2"]).all(), "not estimated"
+    assert len(table) > 2800
+    json.loads(names["json"].read_text(), parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
+    assert names["html"].read_text().count("<svg") == 3
 
 
 def test_every_file(ins, tmp_path):

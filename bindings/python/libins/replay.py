@@ -44,7 +44,7 @@ class Drive:
     """What was recorded, checked, on one clock."""
 
     epoch_s: float
-    imu: Imu
+    imu: Imu | None
     gnss: Gnss
     wheels: Wheels | None
     reference: Gnss | None
@@ -74,8 +74,9 @@ def read(config: Config, folder: Path) -> Drive:
     findings = Findings()
     notes: list[str] = []
     gnss = recording_gnss.load(folder / config.gnss.file, config.gnss, config.leap_s, findings)
-    imu = recording_imu.load(folder / config.imu.csv, config.imu, config.leap_s, findings)
-    wheels = reference = None
+    imu = wheels = reference = None
+    if config.imu is not None:
+        imu = recording_imu.load(folder / config.imu.csv, config.imu, config.leap_s, findings)
     if config.wheels is not None:
         wheels = recording_imu.load_wheels(folder / config.wheels.csv, config.wheels, config.leap_s, findings)
     for other in (imu, wheels):
@@ -89,7 +90,7 @@ def read(config: Config, folder: Path) -> Drive:
     epoch = float(np.floor(min(part.t[0] for part in (gnss, imu, wheels) if part is not None)))
     return Drive(
         epoch,
-        shifted(imu, -epoch),
+        None if imu is None else shifted(imu, -epoch),
         weighted(shifted(gnss, -epoch), config),
         None if wheels is None else shifted(wheels, -epoch),
         None if reference is None else shifted(reference, -epoch),
@@ -331,6 +332,7 @@ class Solution:
 
 def solve(config: Config, drive: Drive, progress: Progress) -> Solution:
     """Two passes for each phase: the first, as blind as the second, shows how good fixes are and how the IMU sits."""
+    assert drive.imu is not None
     given = increments(drive.imu)
     settings, notes = noise_settings(config, drive, given)
     runs: list[Run] = []

@@ -45,7 +45,7 @@ def options(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> int:
     """Exit code 0; raises UsageError."""
-    from libins import replay, replay_config, replay_files, replay_score, scenario
+    from libins import replay, replay_config, replay_files, replay_reckoning, replay_score, scenario
 
     overrides = dict(map(scenario.setting, args.set))
     if args.live is not None:
@@ -64,7 +64,8 @@ def run(args: argparse.Namespace) -> int:
             TimeRemainingColumn(), console=Console(stderr=True), transient=True,
         ) as bar:  # fmt: skip
             task = bar.add_task(args.config.stem, total=1.0)
-            solution = replay.solve(config, drive, lambda share: bar.update(task, completed=share))
+            solve = replay.solve if config.filter == "gps_ins" else replay_reckoning.solve
+            solution = solve(config, drive, lambda share: bar.update(task, completed=share))
         result = replay_score.summary(config, drive, solution)
         states = solution.runs[0].states if solution.runs[0].smoothed is None else solution.runs[0].smoothed
         hidden = replay.within(states[:, 0], solution.spans[0])

@@ -12,7 +12,7 @@ from libins.schema import Document, field
 
 TIMES = ("unix_gps", "unix_utc", "gps_week", "gps_tow", "seconds")
 """Seconds since 1970 on GPS's or UTC's clock; columns week and tow; seconds of the week alone; or since anything."""
-FILTERS = ("gps_ins",)
+FILTERS = ("gps_ins", "gps_dr", "gps_dr_paper")
 VEHICLES = ("car", "walk", "free")
 
 
@@ -76,6 +76,17 @@ class Noise:
 
 
 @dataclass(frozen=True, kw_only=True)
+class GpsDr:
+    """Of the filters gps_dr and gps_dr_paper; the paper's own read uere_m and reading only."""
+
+    reading: str = field("corrected", choices=("printed", "corrected"))
+    uere_m: float = field(5.0, above=0.0, maximum=1e4)
+    tau_fix_s: float = field(20.0, minimum=0.0, maximum=1e4)
+    gyro_bias_rad_s: float = field(5e-3, minimum=0.0, maximum=1.0)
+    odometer_scale: float = field(0.02, minimum=0.0, maximum=1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
 class Reference:
     """What errors are told against; without it, the fixes themselves, also those withheld."""
 
@@ -128,9 +139,10 @@ class Config:
     vehicle: str = field("car", choices=VEHICLES)
     leap_s: float = field(18.0, minimum=0.0, maximum=100.0)
     smooth: bool = field(False)
-    imu: ImuFile
+    imu: ImuFile | None = field(None)
     gnss: GnssFile
     wheels: WheelsFile | None = field(None)
+    gps_dr: GpsDr = field(GpsDr)
     noise: Noise = field(Noise)
     reference: Reference | None = field(None)
     outages: Outages | None = field(None)
@@ -138,11 +150,25 @@ class Config:
     output: Output = field(Output)
 
 
+def _check_filter(document: Document, config: Config) -> None:
+    """Each has the recordings that it needs, and is asked for nothing that it does not do. Raises UsageError."""
+    if config.filter == "gps_ins":
+        if config.imu is None:
+            raise document.refuse(("imu",), 'is missing; filter = "gps_ins" needs it, "gps_dr" needs [wheels] instead')
+        return
+    if config.wheels is None:
+        raise document.refuse(("wheels",), f'is missing; filter = "{config.filter}" needs it: speed and yaw_rate')
+    if config.smooth:
+        told = f'filter = "{config.filter}" has no smoother, "gps_ins" has; leave --smooth and smooth out'
+        raise document.refuse(("smooth",), told)
+
+
 def load(path: Path, overrides: Mapping[str, Any]) -> Config:
     """Read and check, with these values in the place of the file's, by dotted name. Raises UsageError."""
     document = Document(path)
     document.override(overrides, "--set")
     config = document.parse(Config, document.table)
+    _check_filter(document, config)
     for i, outage in enumerate(config.outage):
         if outage.to_s <= outage.from_s:
             raise document.refuse(("outage", str(i), "to_s"), f"found {outage.to_s}, but it must be after from_s")

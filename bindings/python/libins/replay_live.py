@@ -16,12 +16,10 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from libins import recording_gnss, recording_imu
+from libins import recording_gnss, recording_imu, replay_config
 from libins.endpoint import opened
 from libins.errors import UsageError
 from libins.recording import Findings
-from libins.replay_config import GnssFile, Outage, WheelsFile
-from libins.schema import Document, field
 
 Array = np.ndarray[Any, np.dtype[np.float64]]
 TICK_S = 0.1
@@ -150,17 +148,6 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--live-board", metavar="LINE", help="the odometer board's on a line of its own")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Config:
-    """What `--live` reads: the tables of `ins replay` that matter to it."""
-
-    schema: int = field(choices=(1,))
-    leap_s: float = field(18.0, minimum=0.0, maximum=100.0)
-    gnss: GnssFile
-    wheels: WheelsFile
-    outage: list[Outage] = field([])
-
-
 @dataclass(frozen=True)
 class Drive:
     """What is sent; times of withheld spans as those of the recordings."""
@@ -173,9 +160,9 @@ class Drive:
 
 def load(path: Path, overrides: Mapping[str, Any]) -> Drive:
     """Read and check. Raises UsageError."""
-    document = Document(path)
-    document.override(overrides, "--set")
-    config = document.parse(Config, document.table)
+    config = replay_config.load(path, overrides)
+    if config.wheels is None:
+        raise UsageError(f"{path}: wheels: is missing; --live sends what an odometer board would: speed and yaw_rate")
     findings = Findings()
     gnss = recording_gnss.load(path.parent / config.gnss.file, config.gnss, config.leap_s, findings)
     wheels = recording_imu.load_wheels(path.parent / config.wheels.csv, config.wheels, config.leap_s, findings)

@@ -23,6 +23,12 @@ def rms(values: Array) -> float | None:
     return float(np.sqrt(np.mean(known**2))) if len(known) else None
 
 
+def quantile(values: Array, share: float) -> float | None:
+    """None of nothing."""
+    known = values[np.isfinite(values)]
+    return float(np.quantile(known, share)) if len(known) else None
+
+
 def columns(table: Array, names: dict[str, int], *wanted: str) -> Array:
     """Some columns of a table."""
     part: Array = table[:, [names[name] for name in wanted]]
@@ -34,7 +40,7 @@ def horizontal(checks: Array, when: str) -> Array:
     return np.asarray(np.hypot(*columns(checks, CHECK, f"dp_n_{when}", f"dp_e_{when}").T))
 
 
-def outages_of(run: Run, spans: Sequence[tuple[float, float]]) -> list[dict[str, float]]:
+def outages_of(run: Run, spans: Sequence[tuple[float, float]]) -> list[dict[str, Any]]:
     """How far off it was at the last fix withheld in each, horizontally, and what the filter thought of that."""
     found = []
     t, off = run.checks[:, CHECK["t_s"]], horizontal(run.checks, "before")
@@ -53,14 +59,14 @@ def outages_of(run: Run, spans: Sequence[tuple[float, float]]) -> list[dict[str,
                 "end_m": float(off[last]),
                 "max_m": float(off[inside].max()),
                 "sigma_m": float(sigma),
-                "down_m": float(run.checks[last, CHECK["dp_d_before"]]),
+                "down_m": None if np.isnan(down := run.checks[last, CHECK["dp_d_before"]]) else float(down),
                 "speed_m_s": speed,
             }  # fmt: skip
         )
     return found
 
 
-def of_ends(outages: Sequence[dict[str, float]]) -> dict[str, Any]:
+def of_ends(outages: Sequence[dict[str, Any]]) -> dict[str, Any]:
     """Median, rms and largest of the errors at their ends."""
     ends = np.array([outage["end_m"] for outage in outages])
     if not len(ends):
@@ -100,10 +106,11 @@ def summary(config: Config, drive: Drive, solution: Solution) -> dict[str, Any]:
     run, spans = solution.runs[0], solution.spans[0]
     checks = run.checks
     hidden = within(checks[:, CHECK["t_s"]], spans)
-    used = ~hidden if drive.reference is not None else ~hidden & (checks[:, CHECK["withheld"]] == 0)
-    kind = "before" if drive.reference is not None else "after"
-    refused = used & ((checks[:, CHECK["refused"]].astype(int) & POSITION_REFUSED) > 0)
-    used &= ~refused
+    given = ~hidden & (checks[:, CHECK["withheld"]] == 0)
+    refused = given & ((checks[:, CHECK["refused"]].astype(int) & POSITION_REFUSED) > 0)
+    plain = checks[given & ~refused]
+    used = given & ~refused if drive.reference is None else ~hidden & (checks[:, CHECK["withheld"]] > 0)
+    kind = "after" if drive.reference is None else "before"
     nis = {}
     for name in NIS_NAMES:
         values = checks[:, CHECK[name]]
@@ -118,7 +125,6 @@ def summary(config: Config, drive: Drive, solution: Solution) -> dict[str, Any]:
         for k, (each, its) in enumerate(zip(solution.runs, solution.spans, strict=True))
         for outage in outages_of(each, its)
     ]
-    plain = checks[used & (checks[:, CHECK["withheld"]] == 0)]
     return {
         "filter": config.filter,
         "vehicle": config.vehicle,
@@ -132,7 +138,10 @@ def summary(config: Config, drive: Drive, solution: Solution) -> dict[str, Any]:
         "aided": {
             "count": int(used.sum()),
             "refused": int(refused.sum()),
-            "horizontal_rms_m": rms(horizontal(checks[used], kind)),
+            "horizontal_rms_m": rms(off := horizontal(checks[used], kind)),
+            "horizontal_median_m": quantile(off, 0.5),
+            "horizontal_95_m": quantile(off, 0.95),
+            "horizontal_max_m": quantile(off, 1.0),
             "vertical_rms_m": rms(checks[used, CHECK[f"dp_d_{kind}"]]),
             "velocity_rms_m_s": rms(
                 np.linalg.norm(columns(checks[used], CHECK, *(f"dv_{i}_{kind}" for i in "ned")), axis=1)
@@ -167,6 +176,8 @@ def text(result: dict[str, Any]) -> str:
         f"aided     {aided['count']} {result['against']}, {aided['refused']} refused: horizontal rms "
         f"{_number(aided['horizontal_rms_m'])} m, "
         f"vertical {_number(aided['vertical_rms_m'])} m, velocity {_number(aided['velocity_rms_m_s'])} m/s",
+        f"          median {_number(aided['horizontal_median_m'])} m, 95 % {_number(aided['horizontal_95_m'])} m, "
+        f"max {_number(aided['horizontal_max_m'])} m",
         f"ahead     before each fix: horizontal rms {_number(innovation['horizontal_rms_m'])} m, vertical "
         f"{_number(innovation['vertical_rms_m'])} m, velocity {_number(innovation['velocity_rms_m_s'])} m/s",
         "NIS       mean (share above the 95 % bound): "

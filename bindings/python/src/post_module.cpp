@@ -1,5 +1,6 @@
 /// \file   post_module.cpp
 /// \brief  The Python module libins._post: replay of recordings through filters, and the smoother. SPDX-License-Identifier: MIT
+#include "ins_post/gps_dr.hpp"
 #include "ins_post/gps_ins.hpp"
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 #include <stdexcept>
 #include <string>
@@ -223,6 +225,33 @@ ins_gps_ins_config_t configuration(const nb::dict& settings)
     return c;
 }
 
+ins_post::GpsDr make_gps_dr(const std::string& kind, const nb::dict& settings, double uere_m)
+{
+    using Kind = ins_post::GpsDrKind;
+    const std::vector<std::pair<std::string, Kind>> kinds = {
+        {"ours", Kind::OURS}, {"printed", Kind::PAPER_PRINTED}, {"corrected", Kind::PAPER_CORRECTED}};
+    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const auto& each) { return each.first == kind; });
+    if (found == kinds.end())
+    {
+        throw std::invalid_argument("GpsDr: kind '" + kind + "' is none of ours, printed, corrected");
+    }
+    ins_gps_dr_config_t c;
+    ins_gps_dr_config_default(&c);
+    take(settings, "tau_fix", c.tau_fix);
+    take(settings, "sigma_bias", c.sigma_bias);
+    take(settings, "sigma_scale", c.sigma_scale);
+    return {c, {found->second, uere_m}};
+}
+
+nb::dict gps_dr_counts(const ins_post::GpsDr& filter)
+{
+    nb::dict d;
+    d["fixes taken"] = filter.counts().fixes;
+    d["seconds without a fix"] = filter.counts().no_fixes;
+    d["fixes refused"] = filter.counts().refused;
+    return d;
+}
+
 ins_gps_ins_start_t beginning(double t, const std::array<double, 4>& q_nb, const Vec3& v_n, const Vec3& position,
                               const Vec3& gyro_bias, const std::array<double, INS_KF15_N>& sigma)
 {
@@ -275,6 +304,14 @@ NB_MODULE(_post, m)
         .def(
             "smooth", [](const ins_post::GpsIns& self) { return state_table(ins_post::smooth(self.nodes())); },
             "States of all nodes from the whole run, (N, len(STATE_COLUMNS)); needs node_period_s.");
+    nb::class_<ins_post::GpsDr, ins_post::Filter>(m, "GpsDr", "GPS and dead reckoning: ins/gps_dr.h, or the paper's.")
+        .def(
+            "__init__",
+            [](ins_post::GpsDr* self, const std::string& kind, const nb::dict& settings, double uere_m)
+            { new (self) ins_post::GpsDr(make_gps_dr(kind, settings, uere_m)); },
+            "kind"_a, "settings"_a, "uere_m"_a,
+            "kind: ours, printed, corrected; settings: members of ins_gps_dr_config_t; the others keep their preset.")
+        .def("counts", gps_dr_counts, "What was used and refused, by what it is.");
     nb::class_<ins_post::Replay>(m, "Replay", "A filter and its events.")
         .def(
             "__init__",

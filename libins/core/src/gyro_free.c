@@ -218,10 +218,48 @@ ins_status_t ins_gyro_free_step(ins_gyro_free_t* self, const ins_real* readings)
     return INS_OK;
 }
 
+/// The errors' axes are the body's, seen in n, and turn with the attitude's estimate.
+static void turn_errors(ins_gyro_free_t* self, const ins_real phi[3])
+{
+    ins_real q[4];
+    ins_real C[9];
+    ins_real Phi[GF_N * GF_N] = {0};
+    ins_real none[INS_UD_SIZE(GF_N)] = {0};
+    ins_real work[INS_UD_WORK(GF_N)];
+    if (ins_quat_from_rotvec(phi, q) != INS_OK)
+    {
+        return;
+    }
+    ins_quat_to_dcm(q, C);
+    for (int i = 0; i < GF_N; i++)
+    {
+        Phi[(GF_N + 1) * i] = 1;
+    }
+    for (int i = 0; i < GF_W; i++)
+    {
+        for (int k = 0; k < 3; k++)
+        {
+            Phi[GF_N * i + i - i % 3 + k] = C[3 * (i % 3) + k];
+        }
+    }
+    ins_ud_predict(GF_N, 0, self->UD, Phi, none, work);
+}
+
 static void correct_by(ins_gyro_free_t* self, const ins_real x[GF_N])
 {
     ins_sixacc_t* s = &self->sixacc;
-    ins_strapdown_correct(&self->strapdown, x);
+    ins_real moved[GF_W]; // v^ + dv + phi x dv / 2
+    ins_vec_copy(x + GF_PHI, moved);
+    for (int i = GF_V; i < GF_W; i += 3)
+    {
+        ins_vec_cross(x + GF_PHI, x + i, moved + i);
+        for (int k = i; k < i + 3; k++)
+        {
+            moved[k] = x[k] + INS_C(0.5) * moved[k];
+        }
+    }
+    ins_strapdown_correct(&self->strapdown, moved);
+    turn_errors(self, x + GF_PHI);
     ins_vec_add_scaled(s->w_ib_b, 1, x + GF_W);
     ins_vec_add_scaled(s->wd_ib_b, -1, x + GF_BD);
     for (int i = 0; i < 6; i++)

@@ -14,9 +14,11 @@
 /// Errors are truth less estimate: phi (attitude, n), dv, dp (n, metres), dw (b), and what the biases of the readings make of wd and
 /// of f, dbd and dbf (b): of N biases only these six combinations are observable.
 ///     phi' = C dw     dv' = phi x f + C (J dw - dbf)     dp' = dv     dw' = J dw - dbd     db' = noise
+/// Attitude, velocity and position are one element of a group, and their errors of the body (left-invariant): the estimate is
+/// moved by exp(phi, dv, dp), and their covariance turns with it. As differences they would make the filter surer than it may be.
 /// J is the derivative of the centripetal terms. The Earth's rate moves the state but is left out of the filter's model: 7e-5 rad/s of
 /// errors. UD form (ins/kalman.h): the errors' ratios are those of t^4.
-/// Source: C.-Y. Hung et al. (ins/sixacc.h); P. D. Groves (2013), 14.2; docs/gyro_free.md.
+/// Source: C.-Y. Hung et al. (ins/sixacc.h); P. D. Groves (2013), 14.2; A. Barrau, S. Bonnabel, IEEE Trans. AC 62(4), 2017, 1797-1812.
 /// Cost:   no libm but sqrt, no allocation; docs/gyro_free.md.
 /// SPDX-License-Identifier: MIT
 #ifndef INS_GYRO_FREE_H_INCLUDED

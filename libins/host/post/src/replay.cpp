@@ -8,6 +8,10 @@
 
 namespace ins_post
 {
+namespace
+{
+constexpr double SAME = 1e-6; // of the time between states: instants are sums of periods, and rounded
+}
 
 Replay::Replay(Filter& filter, std::vector<Event> events, double output_s)
     : filter_(filter), events_(std::move(events)), output_s_(output_s), due_(0.0)
@@ -51,10 +55,10 @@ void Replay::run(double t)
             }
         }
         const bool last_of_instant = next_ + 1 == events_.size() || events_[next_ + 1].t > event.t;
-        if (last_of_instant && event.t >= due_ && filter_.started())
+        if (last_of_instant && event.t >= due_ - SAME * output_s_ && filter_.started())
         {
             states_.push_back(filter_.state());
-            due_ += std::ceil((event.t - due_) / output_s_ + 1e-9) * output_s_;
+            due_ += (std::floor((event.t - due_) / output_s_ + SAME) + 1.0) * output_s_;
         }
     }
 }
