@@ -1,5 +1,5 @@
 /// \file   publish.c
-/// \brief  A load for callgrind: N publications of a navigation state with nobody listening. See attitude_step.c for the method.
+/// \brief  A load for callgrind: N publications of a navigation state with its covariance, nobody listening. See attitude_step.c for the method.
 /// SPDX-License-Identifier: MIT
 #include "ins_dds/dds.h"
 #include <stdio.h>
@@ -21,10 +21,13 @@ int main(int argc, char** argv)
     ins_nav_state_t state;
     memset(&state, 0, sizeof state);
     state.q_nb[0] = 1.0;
+    ins_navigation_t navigation;
+    ins_navigation_from_state(&state, 0, &navigation);
+    navigation.valid |= INS_NAVIGATION_COVARIANCE;
     for (long k = 0; k < count; k++)
     {
         state.index = (uint64_t)k;
-        if (ins_dds_publish(dds, &state, "bench", k) != INS_DDS_OK)
+        if (ins_dds_publish_navigation(dds, &state, &navigation, "bench", k) != INS_DDS_OK)
         {
             fprintf(stderr, "%s\n", ins_dds_error_text());
             return 1;
