@@ -25,7 +25,8 @@ int main(int argc, char** argv)
 {
     ins_dds_config_t cfg;
     ins_dds_t* dds;
-    ins_dds_config_default(&cfg); // loopback; cfg.network and cfg.xml lead elsewhere
+    ins_dds_config_default(&cfg); // loopback
+    cfg.network = getenv("CYCLONEDDS_URI") != NULL ? INS_DDS_ENVIRONMENT : cfg.network;
     cfg.domain = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 0;
     cfg.publishes = 0;
     cfg.subscribes = 1;

@@ -4,6 +4,7 @@ pip install cyclonedds; python subscribe.py [DOMAIN [COUNT]]
 """
 # SPDX-License-Identifier: MIT
 
+import os
 import sys
 from dataclasses import dataclass
 from math import degrees, sqrt
@@ -65,7 +66,7 @@ class NavState(IdlStruct, typename="libins.NavState"):
 
 domain = int(sys.argv[1]) if len(sys.argv) > 1 else 0
 left = int(sys.argv[2]) if len(sys.argv) > 2 else -1
-configured = Domain(domain, LOOPBACK)  # before the participant, and kept
+configured = Domain(domain, os.environ.get("CYCLONEDDS_URI", LOOPBACK))  # before the participant, and kept
 qos = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.History.KeepLast(100))
 participant = DomainParticipant(domain)
 reader = DataReader(participant, Topic(participant, "libins/nav_state", NavState), qos=qos)

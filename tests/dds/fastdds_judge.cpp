@@ -1,9 +1,11 @@
 // A subscriber on another DDS stack (eProsima Fast DDS): prints what arrives, octet by octet, and what discovery tells of writers.
 //   fastdds_judge DOMAIN SECONDS reliable|best_effort|latched TOPIC TYPE [TOPIC TYPE ...]
+// On the loopback interface, or that with the address JUDGE_ADDRESS in the environment, where it asks JUDGE_PEER.
 // Lines of JSON: {"topic":..., "cdr":"hex"} a sample, {"writer":topic, "type":..., "user":...} a writer found, {"participant":user data}.
 // SPDX-License-Identifier: MIT
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -108,16 +110,22 @@ class Discovery : public fast::DomainParticipantListener
     }
 };
 
-/// UDP on the loopback interface alone.
-fast::DomainParticipantQos loopback()
+std::string setting(const char* name)
+{
+    const char* const value = std::getenv(name);
+    return value != nullptr ? value : "127.0.0.1";
+}
+
+/// UDP on one interface alone, no peers but one.
+fast::DomainParticipantQos one_interface()
 {
     fast::DomainParticipantQos qos = fast::PARTICIPANT_QOS_DEFAULT;
     auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-    udp->interfaceWhiteList.push_back("127.0.0.1");
+    udp->interfaceWhiteList.push_back(setting("JUDGE_ADDRESS"));
     qos.transport().use_builtin_transports = false;
     qos.transport().user_transports.push_back(udp);
     rtps::Locator_t peer;
-    rtps::IPLocator::setIPv4(peer, 127, 0, 0, 1); // port 0: the first ones of the domain
+    rtps::IPLocator::setIPv4(peer, setting("JUDGE_PEER")); // port 0: the first ones of the domain
     qos.wire_protocol().builtin.initialPeersList.push_back(peer);
     return qos;
 }
@@ -133,8 +141,8 @@ int main(int argc, char** argv)
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
     Discovery discovery;
     auto* factory = fast::DomainParticipantFactory::get_instance();
-    auto* participant = factory->create_participant(static_cast<uint32_t>(std::atoi(argv[1])), loopback(), &discovery,
-                                                    fast::StatusMask::none());
+    auto* participant = factory->create_participant(static_cast<uint32_t>(std::atoi(argv[1])), one_interface(),
+                                                    &discovery, fast::StatusMask::none());
     if (participant == nullptr)
     {
         std::fprintf(stderr, "fastdds_judge: no participant\n");

@@ -1,4 +1,4 @@
-// Publishes known instants as ROS 2 topics, and prints each as a line of JSON.   ros_publisher DOMAIN READERS COUNT
+// Publishes known instants as ROS 2 topics, and prints each as a line of JSON.   ros_publisher DOMAIN READERS COUNT [INTERFACE PEERS]
 // Waits until READERS readers are matched, all topics together; ends when its standard input does.
 // SPDX-License-Identifier: MIT
 #include "ins/quat.h"
@@ -53,7 +53,7 @@ static int matched(ins_ros_t* ros)
 
 int main(int argc, char** argv)
 {
-    if (argc != 4)
+    if (argc != 4 && argc != 6)
     {
         return 2;
     }
@@ -61,8 +61,17 @@ int main(int argc, char** argv)
     ins_ros_t* ros = NULL;
     ins_ros_config_default(&cfg);
     cfg.dds.domain = (uint32_t)atoi(argv[1]);
+    if (argc == 6)
+    {
+        cfg.dds.network = INS_DDS_INTERFACE;
+        cfg.dds.interface = argv[4];
+        cfg.dds.peers = argv[5];
+    }
     cfg.name_space = "/car";
-    cfg.dds.history = 1000; // a reader may fall behind: every instant is to arrive
+    for (int topic = 0; topic < INS_ROS_TOPICS; topic++)
+    {
+        cfg.topic[topic].qos.history = 1000; // a reader may fall behind: every instant is to arrive
+    }
     cfg.rate_sigma = 0.003;
     cfg.force_sigma = 0.04;
     cfg.topic[INS_ROS_TWIST].decimate = 5;

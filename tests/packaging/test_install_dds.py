@@ -1,9 +1,8 @@
-"""libins_dds installed: find_package(libins COMPONENTS dds), pkg-config, headers, symbols, and subscribers on them."""
+"""libins_dds installed: find_package(libins COMPONENTS dds), pkg-config, headers, symbols, IDL, a subscriber on it."""
 
 import os
 import re
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -56,14 +55,6 @@ def expect_states(lines: list[str]) -> None:
     assert all(line.endswith("28.6478898 -14.3239449 deg +- 1.50 m") for line in lines)
 
 
-def test_the_c_subscriber_is_built_by_find_package_and_hears(prefix: Path, tmp_path: Path) -> None:
-    flags = f"-DCMAKE_C_FLAGS={' '.join(STRICT)}"
-    source = EXAMPLES / "dds_subscribe_c"
-    run("cmake", "-G", "Ninja", "-S", source, "-B", tmp_path, f"-DCMAKE_PREFIX_PATH={prefix}", flags)
-    run("cmake", "--build", tmp_path)
-    expect_states(subscribed([tmp_path / "subscribe"]))
-
-
 def test_the_c_subscriber_is_built_by_pkg_config(prefix: Path, tmp_path: Path) -> None:
     where = {"PKG_CONFIG_PATH": str(prefix / "lib/pkgconfig")}
     flags = run("pkg-config", "--cflags", "--libs", "libins_dds", **where).split()
@@ -71,22 +62,23 @@ def test_the_c_subscriber_is_built_by_pkg_config(prefix: Path, tmp_path: Path) -
     expect_states(subscribed([tmp_path / "subscribe"], LD_LIBRARY_PATH=str(prefix / "lib")))
 
 
-def test_the_python_subscriber_hears_by_another_version_of_cyclone() -> None:
-    script = EXAMPLES / "dds_subscribe_python/subscribe.py"
-    expect_states(subscribed([sys.executable, script]))
+def fields(text: str, begin: str, end: str, pattern: str) -> list[str]:
+    """Names of a struct's fields, in order; case is the language's."""
+    return [name.lower() for name in re.findall(pattern, text.split(begin)[1].split(end)[0], re.MULTILINE)]
 
 
-def test_the_installed_idl_is_what_the_python_subscriber_declares(prefix: Path) -> None:
+def test_the_installed_idl_is_what_the_subscribers_declare(prefix: Path) -> None:
     where = {"PKG_CONFIG_PATH": str(prefix / "lib/pkgconfig")}
     folder = Path(run("pkg-config", "--variable=idldir", "libins_dds", **where).strip())
     assert sorted(path.name for path in folder.iterdir()) == ["libins.idl", "ros2.idl"]
     idl = re.sub(r"//.*", "", (folder / "libins.idl").read_text(encoding="utf-8"))
-    script = (EXAMPLES / "dds_subscribe_python/subscribe.py").read_text(encoding="utf-8")
+    python = (EXAMPLES / "dds_subscribe_python/subscribe.py").read_text(encoding="utf-8")
+    rust = (EXAMPLES / "dds_subscribe_rust/src/main.rs").read_text(encoding="utf-8")
     for name in ("NavCounts", "NavState"):
-        body = idl.split(f"struct {name}\n")[1].split("};")[0]
-        fields = re.findall(r"(\w+)(?:\[\d+\])?;", body)
-        declared = re.findall(r"^    (\w+): ", script.split(f"class {name}(")[1].split("\n\n")[0], re.MULTILINE)
-        assert declared == fields
+        want = fields(idl, f"struct {name}\n", "};", r"(\w+)(?:\[\d+\])?;")
+        assert len(want) > 5
+        assert fields(python, f"class {name}(", "\n\n", r"^    (\w+): ") == want
+        assert fields(rust, f"struct {name} {{", "\n}", r"^    (\w+): ") == want
 
 
 def test_every_header_is_installed_and_compiles_alone(prefix: Path, tmp_path: Path) -> None:

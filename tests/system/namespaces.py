@@ -6,6 +6,7 @@ Each is held by a process that ends with ours. An ordinary user gets them in a u
 import contextlib
 import shutil
 import subprocess
+import time
 from collections.abc import Iterator, Sequence
 
 REMEDY = (
@@ -16,6 +17,7 @@ REMEDY = (
 HOLD = "ip link set lo up && echo ready && exec cat"  # until its standard input ends
 ADDRESSES = ("10.97.0.1", "10.97.0.2")
 """Of the two ends of a cable."""
+CARRIER_LIMIT_S = 30  # a hang, not a figure
 
 
 class Namespace:
@@ -46,10 +48,11 @@ class Namespace:
         user = ["--user", "--preserve-credentials"] if self.has_user else []
         return ["nsenter", f"--target={self.holder.pid}", *user, "--net", *map(str, command)]
 
-    def ip(self, *words: str) -> None:
-        """An ip command in it, which must succeed."""
+    def ip(self, *words: str) -> str:
+        """What an ip command in it prints; it must succeed."""
         done = subprocess.run(self.inside(["ip", *words]), capture_output=True, text=True)
         assert done.returncode == 0, f"ip {' '.join(words)}: {done.stderr}"
+        return done.stdout
 
     def close(self) -> None:
         """Whatever still runs in it keeps it alive."""
@@ -71,4 +74,10 @@ def cable() -> Iterator[tuple[Namespace, Namespace]]:
         for end, network, address in (("cable0", one, ADDRESSES[0]), ("cable1", other, ADDRESSES[1])):
             network.ip("address", "add", f"{address}/24", "dev", end)
             network.ip("link", "set", end, "multicast", "off", "up")
+        limit = time.monotonic() + CARRIER_LIMIT_S
+        while "LOWER_UP" not in one.ip("link", "show", "cable0") or "LOWER_UP" not in other.ip(
+            "link", "show", "cable1"
+        ):
+            assert time.monotonic() < limit, f"the cable has no carrier after {CARRIER_LIMIT_S} s"
+            time.sleep(0.01)
         yield one, other

@@ -67,15 +67,23 @@ class Heard:
 
 
 @contextlib.contextmanager
-def judge(topics: dict[str, str], kind: str = "reliable") -> Iterator[Heard]:
-    """Another stack that listens while the block runs."""
+def judge(
+    topics: dict[str, str],
+    kind: str = "reliable",
+    domain: int = DOMAIN,
+    inside: Callable[[list[str]], list[str]] = list,
+    **environment: str,
+) -> Iterator[Heard]:
+    """Another stack that listens while the block runs. inside: makes its command one in a network."""
     program = PROGRAMS / "fastdds_judge"
     assert program.exists(), f"{program} is missing: install libfastrtps-dev and build the tests"
     pairs = [text for topic, message in topics.items() for text in (topic, wire(message))]
-    command = [str(program), str(DOMAIN), str(WALL_LIMIT_S), kind, *pairs]
+    command = inside([str(program), str(domain), str(WALL_LIMIT_S), kind, *pairs])
     with tempfile.TemporaryDirectory() as folder, (Path(folder) / "heard").open("w+") as lines:
         with (Path(folder) / "heard").open("w") as out:
-            listener = subprocess.Popen(command, stdout=out, stderr=subprocess.PIPE, text=True)
+            listener = subprocess.Popen(
+                command, stdout=out, stderr=subprocess.PIPE, text=True, env=os.environ | environment
+            )
         try:
             assert listener.stderr is not None
             assert listener.stderr.readline() == "ready\n"
