@@ -7,6 +7,7 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
+from libins import pictures
 from libins.campaign import OUTCOMES, Campaign, Row
 from libins.errors import UsageError
 
@@ -15,7 +16,6 @@ try:
 except ImportError as missing:
     raise UsageError("a campaign's table needs polars: pip install 'libins[campaign]'") from missing
 
-import matplotlib
 from jinja2 import Environment, PackageLoader, select_autoescape
 from markupsafe import Markup
 from matplotlib.figure import Figure
@@ -103,7 +103,7 @@ def outcome_plot(counts: Counter[str]) -> str:
     bars = axes.barh(names, [counts[name] for name in names], color=[COLOURS[name] for name in names])
     axes.bar_label(bars, padding=3)
     axes.set_xlabel("runs")
-    return svg(figure)
+    return pictures.svg(figure)
 
 
 def spread_plot(frame: polars.DataFrame, name: str) -> str:
@@ -118,12 +118,4 @@ def spread_plot(frame: polars.DataFrame, name: str) -> str:
     axes.set_xlabel(name)
     axes.set_ylabel("runs")
     axes.legend(frameon=False)
-    return svg(figure)
-
-
-def svg(figure: Figure) -> str:
-    """The picture as an element of a page; the same bytes for the same figures."""
-    with matplotlib.rc_context({"svg.hashsalt": "libins", "svg.fonttype": "none", "font.size": 9}):
-        out = io.StringIO()
-        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    return out.getvalue()[out.getvalue().index("<svg") :]
+    return pictures.svg(figure)

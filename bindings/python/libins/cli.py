@@ -296,6 +296,7 @@ def _run_one(loaded: Loaded, options: argparse.Namespace, outlets: tuple[Any, An
     if options.console is not None:
         settings.console = _print_octets
     settings.publish = _publisher(*outlets, loaded.name)
+    settings.explain = options.report is not None
     trace_lines = ["t_ps,wire,level\n"]
     if options.trace is not None:
         settings.trace = lambda wires, edges: trace_lines.extend(report.trace_lines(wires, edges))
@@ -335,7 +336,8 @@ def _run_one(loaded: Loaded, options: argparse.Namespace, outlets: tuple[Any, An
     if options.trace is not None:
         write(place(options.trace), "".join(trace_lines))
     if options.report is not None:
-        write(place(options.report), _page().html(loaded, result, settings.watch.view if settings.watch else None))
+        watch = settings.watch
+        write(place(options.report), _page().html(loaded, result, watch.view, watch.files) if watch else "")
     return result
 
 

@@ -5,7 +5,7 @@ and taken, in the line they were compiled from. Counts are 1 or 0: what is noted
 """
 
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from itertools import chain
 from pathlib import Path
@@ -62,6 +62,28 @@ def totals(files: dict[str, File]) -> dict[str, int]:
         "functions": sum(len(f.functions) for f in files.values()),
         "functions_covered": sum(entered for f in files.values() for _, _, entered in f.functions),
     }
+
+
+def instructions(marks: Any, code: Callable[[int], int]) -> dict[str, int]:
+    """Without debug information: addresses that ran, and ways of the conditional jumps among them."""
+    ran = [address for address, mark in enumerate(marks.tolist()) if mark & EXECUTED]
+    jumps = [int(marks[address]) for address in ran if OPCODES[code(address)].branches]
+    return {
+        "instructions_covered": len(ran),
+        "branches": 2 * len(jumps),
+        "branches_covered": sum(bool(mark & NOT_TAKEN) + bool(mark & TAKEN) for mark in jumps),
+    }
+
+
+def ranges(numbers: Iterable[int]) -> str:
+    """3, 4, 5, 9 as "3-5, 9"."""
+    found: list[list[int]] = []
+    for number in sorted(numbers):
+        if found and number == found[-1][1] + 1:
+            found[-1][1] = number
+        else:
+            found.append([number, number])
+    return ", ".join(str(a) if a == b else f"{a}-{b}" for a, b in found)
 
 
 def sources(table: Cdb, folders: list[Path]) -> dict[str, Path]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from libins import net_vcd
+from libins.coverage import File
 from libins.growing_file import GrowingFile
 from libins.machine import Array
 from libins.net_machine import NetMachine
@@ -38,6 +39,8 @@ class Observation:
         self._dump: net_vcd.Dump | None = None
         self._log: GrowingFile | None = None
         self._recorder: Nets | None = None
+        self.files: dict[str, File] = {}
+        """Coverage of firmware that is compiled for this machine is its compiler's."""
         self._in_service: dict[str, list[str]] = {}
         """Interrupts of each F2812, nested."""
 

@@ -32,7 +32,7 @@ class Wanted:
     source: list[Path] = field(default_factory=list)
     """Folders with the firmware's C files."""
     view_s: float | None = None
-    """Instant around which the report's pictures are."""
+    """Of a report, which has the profile and coverage too: the instant around which its pictures are."""
 
 
 def _code(run: Any) -> Callable[[int], int]:
@@ -62,6 +62,8 @@ class Observation:
         self._trace: itrace.Writer | None = None
         self._observer: Any = None
         self._recorder: views.Recorder | None = None
+        self.files: dict[str, coverage.File] = {}
+        """What ran of each C file, at the end."""
 
     def _debug_information(self) -> Cdb | None:
         beside = self._scenario.firmware.with_suffix(".cdb")
@@ -97,9 +99,10 @@ class Observation:
             self._dump = vcd.Dump(self._open(w.vcd), run, settings)
         if w.itrace:
             self._trace = itrace.Writer(self._open(w.itrace), code)
-        if w.lcov or w.profile:
+        report = w.view_s is not None
+        if w.lcov or w.profile or report:
             _run.cover(run)
-        if w.vcd or w.itrace or w.profile:
+        if w.vcd or w.itrace or w.profile or report:
             entries = [f.begin for f in self._table.functions] if self._table else []
             self._observer = _run.Observer(run, entries, watch, trace=w.itrace is not None)
 
@@ -130,13 +133,15 @@ class Observation:
         observed: dict[str, Any] = {}
         if self._observer is not None:
             observed |= self._profile(run)
-        if self._table and (self._wanted.lcov or self._wanted.profile):
-            files = coverage.measure(self._table, _run.coverage(run), _code(run))
-            observed["coverage"] = coverage.totals(files)
+        if self._table and (self._wanted.lcov or self._wanted.profile or self._wanted.view_s is not None):
+            self.files = coverage.measure(self._table, _run.coverage(run), _code(run))
+            observed["coverage"] = coverage.totals(self.files)
             if self._wanted.lcov:
                 lcov = GrowingFile(self._wanted.lcov)
-                lcov.text.write(coverage.lcov(files, self._paths))
+                lcov.text.write(coverage.lcov(self.files, self._paths))
                 lcov.done()
+        elif self._wanted.view_s is not None:
+            observed["coverage"] = coverage.instructions(_run.coverage(run), _code(run))
         return {"observed": observed} if observed else {}
 
     def _profile(self, run: Any) -> dict[str, Any]:

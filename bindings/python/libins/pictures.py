@@ -24,12 +24,19 @@ HIGH = 0.7
 """Height of a trace; traces are 1 apart."""
 
 
+INK = {"#000000": "currentColor", "#4d4d4d": "#808080"}
+"""On a page that may be light or dark: black is what its text has, and a dark grey a middle one."""
+
+
 def svg(figure: Figure) -> str:
-    """A figure as an SVG element; the same bytes for the same figure."""
+    """A figure as an SVG element without a ground of its own; the same bytes for the same figure."""
     out = io.StringIO()
     with matplotlib.rc_context({"svg.hashsalt": "libins", "svg.fonttype": "none"}):
-        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None})
-    return out.getvalue()[out.getvalue().index("<svg") :]
+        figure.savefig(out, format="svg", metadata={"Date": None, "Creator": None}, transparent=True)
+    text = out.getvalue()[out.getvalue().index("<svg") :]
+    for colour, other in INK.items():
+        text = text.replace(colour, other)
+    return text
 
 
 def _falls(edges: Edges, since: int) -> list[int]:
@@ -94,7 +101,10 @@ def lines(view: View, span_s: float) -> str | None:
         axes = figure.subplots()
         _traces(axes, view, nets, begin, end, 1e9)
         _octets(axes, view, nets, begin, end)
-        axes.set_xlabel(f"milliseconds from {begin / PS_PER_S:.6f} s; red: octets")
+        axes.axvline((view.at_ps - begin) / 1e9, color="tab:red", linewidth=0.7, linestyle=":")
+        axes.set_xlabel(
+            f"milliseconds from {begin / PS_PER_S:.6f} s; dotted: {view.at_ps / PS_PER_S:.6f} s; red: octets"
+        )
         return svg(figure)
 
 

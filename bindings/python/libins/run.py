@@ -11,9 +11,11 @@ from typing import Any, Protocol
 import numpy as np
 
 from libins import _run, faults
+from libins.coverage import File
 from libins.endpoint import Endpoint
 from libins.errors import UsageError
 from libins.machine import AXES, COLUMNS, PS_PER_S, AcquisitionMachine, Array, Machine, accuracy, build
+from libins.moments import Line, Moment, Moments
 from libins.motions import motion_of
 from libins.net_machine import NetMachine
 from libins.net_scenario import NetScenario
@@ -55,6 +57,10 @@ class Result:
     columns: Sequence[str]
     checks: list[Check] = field(default_factory=list)
     scan_columns: Sequence[str] = tuple(_run.SCAN_COLUMNS)
+    moments: list[Moment] = field(default_factory=list)
+    """With Options.explain: the lines around the instants that explain the verdict."""
+    lines: Mapping[str, Line] = field(default_factory=dict)
+    """And what they carried."""
 
 
 @dataclass
@@ -75,6 +81,8 @@ class Options:
     """Takes what the program writes to its console."""
     watch: "Watch | None" = None
     """What looks at the firmware meanwhile."""
+    explain: bool = False
+    """Keep what a report shows of failures."""
     progress: Callable[[float, Array], None] | None = None
     """Called with the simulated time and the new states."""
 
@@ -97,6 +105,11 @@ class Watch(Protocol):
     @property
     def view(self) -> Any:
         """What the report's pictures show, or None."""
+        ...
+
+    @property
+    def files(self) -> Mapping[str, File]:
+        """What ran of each C file."""
         ...
 
     def close(self) -> None:
@@ -139,6 +152,7 @@ def _execute(scenario: Loaded, options: Options, machine: Machine, seed: int, st
     stop_ps = round(stop_s * PS_PER_S)
     reached_samples = False
     pacer = Pacer(speed or 1.0)
+    moments = Moments(scenario, machine) if options.explain else None
     end: str | None = None
     while machine.now_ps < stop_ps and not reached_samples and end is None:
         if speed is None:
@@ -155,6 +169,8 @@ def _execute(scenario: Loaded, options: Options, machine: Machine, seed: int, st
             options.trace(machine.wires, edges)
         if options.watch is not None:
             options.watch.slice(machine.subject, edges)
+        if moments is not None:
+            moments.slice(machine, edges, states)
         if options.publish is not None:
             for state in raw:
                 options.publish(state)
@@ -199,7 +215,12 @@ def _execute(scenario: Loaded, options: Options, machine: Machine, seed: int, st
     if options.strict and summary["reports"]:
         code = 3
     summary["verdict"] = "fail" if code else "pass"
-    return Result(summary, states, machine.scans(), code, machine.columns, checks, machine.scan_columns)
+    result = Result(summary, states, machine.scans(), code, machine.columns, checks, machine.scan_columns)
+    if moments is not None:
+        of_value = {e.value: check.failure for e, check in zip(tables.expect, checks, strict=False) if check.failure}
+        result.moments = moments.end(machine, of_value or ({"run": failed[0]} if failed else {}))
+        result.lines = moments.lines
+    return result
 
 
 class Pacer:

@@ -49,11 +49,14 @@ class Nets:
         """What happened since the last call."""
         view = self.view
         for wire, net in enumerate(view.nets):
-            mine = [(at, bool(level)) for at, w, level in edges.tolist() if w == wire]
+            rows = edges[edges[:, 1] == wire]
             if net in self._decoders:
-                view.frames[net] += [f for f in self._decoders[net].feed(mine, now_ps) if self.near(f.begin_ps)]
-            before = [edge for edge in mine if edge[0] < view.at_ps - self._span_ps]
-            view.nets[net] = (before[-1:] or view.nets[net]) + [edge for edge in mine if self.near(edge[0])]
+                frames = self._decoders[net].feed(((at, bool(level)) for at, _, level in rows.tolist()), now_ps)
+                view.frames[net] += [f for f in frames if self.near(f.begin_ps)]
+            before = rows[rows[:, 0] < view.at_ps - self._span_ps][-1:]
+            near = rows[np.abs(rows[:, 0] - view.at_ps) <= self._span_ps]
+            first, later = ([(at, bool(level)) for at, _, level in part.tolist()] for part in (before, near))
+            view.nets[net] = (first or view.nets[net]) + later
 
     def near(self, at: int) -> bool:
         """Whether an instant is in the window."""
