@@ -65,8 +65,7 @@ def test_the_oscilloscope_has_each_sample_on_its_curve(seen):
             assert min(near) - 1e-5 <= volts <= max(near) + 1e-5
 
 
-def test_a_report_has_the_profile_where_one_was_asked_for(ins, tmp_path, report):
-    assert "<h2>Firmware</h2>" not in report
+def test_a_report_has_the_profile(ins, tmp_path):
     path = tmp_path / "p.html"
     options = ["--set", "firmware=acq_default_debug.ihx", "--stop-s", 1, "--profile", tmp_path / "p.txt"]
     done = ins("run", "default", *options, "--report", path)

@@ -208,7 +208,8 @@ def _print_octets(octets: bytes) -> None:
     sys.stdout.buffer.flush()
 
 
-def _speed(text: str | None) -> float | None:
+def speed_of(text: str | None) -> float | None:
+    """None: as fast as it goes. Raises UsageError."""
     if text is None or text == "max":
         return None
     try:
@@ -288,7 +289,7 @@ def _run_one(loaded: Loaded, options: argparse.Namespace, outlets: tuple[Any, An
     endpoints: dict[str, endpoint.Endpoint] = {}
     settings = run.Options(
         endpoints=endpoints,
-        speed=_speed(options.speed),
+        speed=speed_of(options.speed),
         strict=options.strict,
         program=_program(options),
         watch=seeing.observation(loaded, options, place),

@@ -32,19 +32,6 @@ def options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--ros", action="store_true", help="the domain is ROS_DOMAIN_ID, where that is set")
 
 
-def speed_of(text: str) -> float | None:
-    """None: as fast as it goes. Raises UsageError."""
-    if text == "max":
-        return None
-    try:
-        value = float(text)
-    except ValueError:
-        value = 0.0
-    if not 0.001 <= value <= 1e6:
-        raise UsageError(f"--speed {text}: 'max' or a number in 0.001 .. 1e6 is needed")
-    return value
-
-
 def span(args: argparse.Namespace, recording: "Recording") -> tuple[float, float | None]:
     """From and to. Raises UsageError."""
     end = args.to_s
@@ -111,6 +98,7 @@ def run(args: argparse.Namespace) -> int:
         from libins.recording_mcap import Recording
     except ImportError as error:
         raise UsageError(f"ins play: {error.name} is missing; pip install 'libins[record]'") from error
+    from libins.cli import speed_of
     from libins.dds_options import open_raw
 
     speed = speed_of(args.speed)
