@@ -203,6 +203,21 @@ TEST(DdsRaw, TopicsOfRosAreFoundWithTheirHashesAndSequencesPassThrough)
     EXPECT_EQ(taken(raw.get(), 1), octets);
 }
 
+TEST(DdsRaw, ABestEffortWriterIsHeardToo)
+{
+    const Raw raw = open_raw(INS_DDS_LOOPBACK);
+    auto cfg = config(INS_DDS_JOIN);
+    ASSERT_EQ(ins_dds_qos_profile("sensor_data", &cfg.topic[INS_DDS_STATE].qos), INS_DDS_OK);
+    const Dds source = open_dds(cfg);
+    const ins_dds_raw_topic_t topic = found(raw.get(), 1).at("libins/nav_state");
+    EXPECT_TRUE(topic.best_effort);
+    ASSERT_EQ(ins_dds_raw_subscribe(raw.get(), &topic), 0) << ins_dds_error_text();
+    ASSERT_TRUE(comes([&] { return ins_dds_matched(source.get()) == 1; }));
+    const ins_nav_state_t s = state(1);
+    ASSERT_EQ(ins_dds_publish(source.get(), &s, "imu0", 1), INS_DDS_OK);
+    EXPECT_EQ(taken(raw.get(), 1).size(), 1U);
+}
+
 TEST(DdsRaw, WhatALatchedTopicSaidIsThereForWhoComesLate)
 {
     const Raw raw = open_raw(INS_DDS_LOOPBACK);

@@ -230,6 +230,7 @@ def test_a_topic_is_offered_again_as_it_was(tmp_path):
         ),
         _dds.raw_topic("libins/nav_state", "libins::NavState", "left", exclusive=True, strength=7),
         _dds.raw_topic("libins/nav_solution", "libins::NavSolution", latched=True, exclusive=True),
+        _dds.raw_topic("libins/raw_imu", "libins::RawImu", best_effort=True),
     ]
     recorder = Recorder(tmp_path / "a.mcap")
     for topic in before:
@@ -238,7 +239,7 @@ def test_a_topic_is_offered_again_as_it_was(tmp_path):
     recorder.close()
     with Recording(tmp_path / "a.mcap") as recording:
         after = [play_cli.raw_topic(topic, _dds) for topic in recording.topics.values()]
-    names = ("name", "type", "partition", "user", "latched", "exclusive", "strength", "deadline_s")
+    names = ("name", "type", "partition", "user", "latched", "exclusive", "strength", "deadline_s", "best_effort")
     assert [[getattr(t, n) for n in names] for t in after] == [[getattr(t, n) for n in names] for t in before]
 
 

@@ -69,6 +69,7 @@ def raw_topic(topic: "Topic", dds: Any) -> Any:
         strength is not None,
         int(strength or 0),
         _deadline_s(profile),
+        "reliability: best_effort" in profile,
     )
 
 

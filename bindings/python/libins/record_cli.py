@@ -46,7 +46,7 @@ class Listener:
         self._recorder = recorder
         self._wanted = {name.removeprefix("rt") if name.startswith("rt/") else name for name in wanted}
         self._types = frozenset(_dds.raw_types())
-        self._seen: set[tuple[str, str, str, bool]] = set()
+        self._seen: set[tuple[str, str, str, bool, bool]] = set()
         self._number: dict[int, int] = {}
         self._log_ns = 0
         self.count = 0
@@ -57,7 +57,7 @@ class Listener:
 
         for topic in self._handle.found():
             name = ros_topic(topic.name, topic.type)
-            key = (name, topic.type, topic.partition, topic.exclusive)
+            key = (name, topic.type, topic.partition, topic.exclusive, topic.best_effort)
             if key in self._seen or topic.name == INFO or (self._wanted and name not in self._wanted):
                 continue
             self._seen.add(key)

@@ -38,7 +38,11 @@ def _profile(topic: Any) -> str:
     def span(seconds: float) -> dict[str, int]:
         return {"sec": int(seconds), "nsec": round(seconds % 1 * 1e9)} if seconds else FOREVER
 
-    lines = ["- history: keep_last", "  depth: 1" if topic.latched else "  depth: 10", "  reliability: reliable"]
+    lines = [
+        "- history: keep_last",
+        "  depth: 1" if topic.latched else "  depth: 10",
+        f"  reliability: {'best_effort' if topic.best_effort else 'reliable'}",
+    ]
     lines.append(f"  durability: {'transient_local' if topic.latched else 'volatile'}")
     for name, seconds in (("deadline", topic.deadline_s), ("lifespan", 0.0)):
         lines += [f"  {name}:", *(f"    {key}: {value}" for key, value in span(seconds).items())]

@@ -66,7 +66,7 @@ void copy(const std::string& text, Text& to)
 }
 
 Topic topic(const std::string& name, const std::string& type, const std::string& partition, const std::string& user,
-            bool latched, bool exclusive, int32_t strength, double deadline_s)
+            bool latched, bool exclusive, int32_t strength, double deadline_s, bool best_effort)
 {
     Topic t{};
     copy(name, t.name);
@@ -77,6 +77,7 @@ Topic topic(const std::string& name, const std::string& type, const std::string&
     t.exclusive = exclusive ? 1 : 0;
     t.strength = strength;
     t.deadline_s = deadline_s;
+    t.best_effort = best_effort ? 1 : 0;
     return t;
 }
 
@@ -137,12 +138,13 @@ void bind_raw(nb::module_& m)
         .def_prop_ro("type", [](const Topic& t) { return std::string(t.type); })
         .def_prop_ro("partition", [](const Topic& t) { return std::string(t.partition); })
         .def_prop_ro("user", [](const Topic& t) { return std::string(t.user); })
+        .def_prop_ro("best_effort", [](const Topic& t) { return t.best_effort != 0; })
         .def_prop_ro("latched", [](const Topic& t) { return t.latched != 0; })
         .def_prop_ro("exclusive", [](const Topic& t) { return t.exclusive != 0; })
         .def_ro("strength", &Topic::strength)
         .def_ro("deadline_s", &Topic::deadline_s);
     m.def("raw_topic", topic, "name"_a, "type"_a, "partition"_a = "", "user"_a = "", "latched"_a = false,
-          "exclusive"_a = false, "strength"_a = 0, "deadline_s"_a = 0.0);
+          "exclusive"_a = false, "strength"_a = 0, "deadline_s"_a = 0.0, "best_effort"_a = false);
     m.def("raw_types", types);
     nb::class_<Raw>(m, "Raw")
         .def(nb::init<uint32_t, const OptionalText&, const OptionalText&, const OptionalText&, const OptionalText&>(),

@@ -118,9 +118,12 @@ static int describe(const dds_builtintopic_endpoint_t* from, ins_dds_raw_topic_t
         }
         dds_free(user);
     }
+    dds_reliability_kind_t reliability = DDS_RELIABILITY_RELIABLE;
     dds_durability_kind_t durability = DDS_DURABILITY_VOLATILE;
     dds_ownership_kind_t ownership = DDS_OWNERSHIP_SHARED;
     dds_duration_t deadline = DDS_INFINITY;
+    (void)dds_qget_reliability(from->qos, &reliability, NULL);
+    to->best_effort = reliability == DDS_RELIABILITY_BEST_EFFORT;
     to->latched = dds_qget_durability(from->qos, &durability) && durability != DDS_DURABILITY_VOLATILE;
     to->exclusive = dds_qget_ownership(from->qos, &ownership) && ownership == DDS_OWNERSHIP_EXCLUSIVE;
     (void)dds_qget_ownership_strength(from->qos, &to->strength);
@@ -180,8 +183,10 @@ static dds_qos_t* quality(const ins_dds_raw_t* self, const ins_dds_raw_topic_t* 
     ins_dds_config_t cfg = self->cfg;
     cfg.partition = topic->partition[0] != '\0' ? topic->partition : NULL;
     cfg.strength = topic->strength;
-    const ins_dds_qos_t want = {
-        .reliable = 1, .latched = topic->latched, .history = 1, .deadline_s = topic->deadline_s};
+    const ins_dds_qos_t want = {.reliable = is_writer || !topic->best_effort,
+                                .latched = topic->latched,
+                                .history = 1,
+                                .deadline_s = topic->deadline_s};
     dds_qos_t* qos = dds_quality(&cfg, &want, is_writer);
     dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, DDS_LENGTH_UNLIMITED);
     dds_qset_ownership(qos, topic->exclusive ? DDS_OWNERSHIP_EXCLUSIVE : DDS_OWNERSHIP_SHARED);

@@ -31,6 +31,7 @@ typedef struct ins_dds_raw_topic_t
     char type[INS_DDS_RAW_NAME + 1];      ///< libins::NavState, sensor_msgs::msg::dds_::Imu_ ...
     char partition[INS_DDS_RAW_NAME + 1]; ///< its first; "": the default one
     char user[INS_DDS_RAW_NAME + 1];      ///< USER_DATA of the writer, as of ROS 2: typehash=...;
+    int best_effort;                      ///< lost samples stay lost; a player sends them again all the same
     int latched;                          ///< TRANSIENT_LOCAL: who comes late gets the newest sample
     int exclusive;                        ///< EXCLUSIVE ownership, of the next strength
     int32_t strength;
