@@ -34,6 +34,20 @@ BUDGETS = {
     "kf15_ud.propagate.f32.x86.instructions": 10231,
     "kf15_ud.update6.f64.x86.instructions": 6484,
     "kf15_ud.update6.f32.x86.instructions": 5288,
+    "gps_ins.step.f64.x86.instructions": 4019,
+    "gps_ins.step.f32.x86.instructions": 3286,
+    "gps_ins.gnss.f64.x86.instructions": 11590,
+    "gps_ins.gnss.f32.x86.instructions": 9154,
+    "gps_ins.gnss_late.f64.x86.instructions": 17563,
+    "gps_ins.gnss_late.f32.x86.instructions": 14367,
+    "gps_ins_scale.step.f64.x86.instructions": 8809,
+    "gps_ins_scale.step.f32.x86.instructions": 8043,
+    "gps_ins_scale.gnss_late.f64.x86.instructions": 30110,
+    "gps_ins_scale.gnss_late.f32.x86.instructions": 26513,
+    "gps_dr.step.f64.x86.instructions": 6844,
+    "gps_dr.step.f32.x86.instructions": 6687,
+    "gps_dr.fix.f64.x86.instructions": 18043,
+    "gps_dr.fix.f32.x86.instructions": 17810,
     "batch.f64.x86_64_v3.instructions": 27.5,
     "batch.f32.x86_64_v3.instructions": 12.97,
     "dds.publish.instructions": 8875,
@@ -64,6 +78,14 @@ CORE = (
     ("gps_ins.gnss.f32.x86", "gps_ins_f32", "ins_gps_ins_gnss", (50, 150), 1, None),
     ("gps_ins.gnss_late.f64.x86", "gps_ins_late_f64", "ins_gps_ins_gnss", (50, 150), 1, "eigen_kf15_update6"),
     ("gps_ins.gnss_late.f32.x86", "gps_ins_late_f32", "ins_gps_ins_gnss", (50, 150), 1, None),
+    ("gps_ins_scale.step.f64.x86", "gps_ins_scale_f64", "ins_gps_ins_step", (50, 150), 20, "eigen_kf21_propagate"),
+    ("gps_ins_scale.step.f32.x86", "gps_ins_scale_f32", "ins_gps_ins_step", (50, 150), 20, None),
+    ("gps_ins_scale.gnss_late.f64.x86", "gps_ins_scale_f64", "ins_gps_ins_gnss", (50, 150), 1, "eigen_kf21_update6"),
+    ("gps_ins_scale.gnss_late.f32.x86", "gps_ins_scale_f32", "ins_gps_ins_gnss", (50, 150), 1, None),
+    ("gps_dr.step.f64.x86", "gps_dr_f64", "ins_gps_dr_step", (100, 300), 10, None),
+    ("gps_dr.step.f32.x86", "gps_dr_f32", "ins_gps_dr_step", (100, 300), 10, None),
+    ("gps_dr.fix.f64.x86", "gps_dr_f64", "ins_gps_dr_fix", (100, 300), 1, None),
+    ("gps_dr.fix.f32.x86", "gps_dr_f32", "ins_gps_dr_fix", (100, 300), 1, None),
     ("batch.f64.x86_64_v3", "batch_f64", "ins_batch_step", (100, 300), 256, None),
     ("batch.f32.x86_64_v3", "batch_f32", "ins_batch_step", (100, 300), 256, None),
 )
@@ -97,7 +119,7 @@ def measure_core() -> list[Row]:
     rows = []
     for name, load, function, runs, updates, eigen in CORE:
         alone = row(f"{name}.instructions", per_step(f"core/bench_{load}", *runs, function) / updates, "instructions")
-        covariance = load.startswith(("kf15", "gps_ins"))
+        covariance = load.startswith(("kf15", "gps_"))
         if eigen:
             peer = "core/bench_eigen_kf15" if covariance else "core/bench_eigen"
             alone |= {"peer": "Eigen", "peer_value": per_step(peer, 100, 300, eigen)}

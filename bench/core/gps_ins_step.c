@@ -1,7 +1,7 @@
 /// \file   gps_ins_step.c
 /// \brief  A load for callgrind: N times 20 samples of a GPS/INS filter and a fix: a car in a circle. Frames: b, n (NED). SI, rad.
 ///
-/// LATE: the fix is so many samples old, and the antenna is on an arm.
+/// LATE: the fix is so many samples old, and the antenna is on an arm. SCALE: 1 with scale factors, 0 without.
 /// SPDX-License-Identifier: MIT
 #include "ins/ins.h"
 #include <stdio.h>
@@ -39,7 +39,9 @@ static void receive(unsigned long k, ins_gnss_fix_t* fix)
 int main(int argc, char** argv)
 {
     const unsigned long fixes = argc > 1 ? strtoul(argv[1], NULL, 10) : 100;
-    static ins_gps_ins_t nav;
+    static ins_gps_ins_scale_t all;
+    static const ins_kf15_scale_sensors_t scales = {INS_C(.01), INS_C(.01), INS_C(1e5), INS_C(1e5)};
+    ins_gps_ins_t* const nav = &all.base;
     static const ins_gps_ins_start_t start = {.q_nb = {1, 0, 0, 0},
                                               .v_n = {SPEED, 0, 0},
                                               .position = {{INS_C(.9), INS_C(.2), 100}, {0, 0, 0}},
@@ -54,7 +56,7 @@ int main(int argc, char** argv)
         cfg.antenna_b[1] = INS_C(.02);
         cfg.antenna_b[2] = INS_C(-.03);
     }
-    if (ins_gps_ins_init(&nav, &cfg, &start) != INS_OK)
+    if ((SCALE ? ins_gps_ins_scale_init(&all, &cfg, &scales, &start) : ins_gps_ins_init(nav, &cfg, &start)) != INS_OK)
     {
         return 1;
     }
@@ -63,7 +65,7 @@ int main(int argc, char** argv)
         const ins_real shake = k % 2 ? TREMOR : -TREMOR;
         const ins_increment_t increment = {{shake, shake, 2 * PI / CIRCLE + shake},
                                            {shake, SPEED * (2 * PI / CIRCLE) + shake, -G / HZ + shake}};
-        if (ins_gps_ins_step(&nav, (int64_t)k * (1000000000 / HZ), INS_C(1.) / HZ, &increment) != INS_OK)
+        if (ins_gps_ins_step(nav, (int64_t)k * (1000000000 / HZ), INS_C(1.) / HZ, &increment) != INS_OK)
         {
             return 1;
         }
@@ -71,13 +73,13 @@ int main(int argc, char** argv)
         {
             ins_gnss_fix_t fix;
             receive(k - LATE, &fix);
-            if (ins_gps_ins_gnss(&nav, &fix) != INS_OK)
+            if (ins_gps_ins_gnss(nav, &fix) != INS_OK)
             {
                 return 1;
             }
         }
     }
-    printf("%lu of %lu fixes used, %lu in part\n", (unsigned long)nav.count.fixes, fixes,
-           (unsigned long)(nav.count.fix_position + nav.count.fix_velocity));
-    return nav.count.fixes == fixes && nav.count.fix_position + nav.count.fix_velocity == 0 ? 0 : 1;
+    printf("%lu of %lu fixes used, %lu in part\n", (unsigned long)nav->count.fixes, fixes,
+           (unsigned long)(nav->count.fix_position + nav->count.fix_velocity));
+    return nav->count.fixes == fixes && nav->count.fix_position + nav->count.fix_velocity == 0 ? 0 : 1;
 }

@@ -142,12 +142,9 @@ ins_status_t ins_gps_ins_measure(ins_gps_ins_t* self, gps_ins_rows_t* rows, ins_
     for (unsigned i = 0; i < rows->n; i++)
     {
         find(rows->h[i], &columns[i]);
-    }
-    judge_rows(self, columns, rows);
-    for (unsigned i = 0; i < rows->n; i++)
-    {
         positive &= rows->r[i] > 0;
     }
+    judge_rows(self, columns, rows);
     if (!positive || !(rows->joint >= 0 && rows->joint <= INS_REAL_MAX))
     {
         return INS_E_RANGE;

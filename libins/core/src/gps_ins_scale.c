@@ -85,9 +85,17 @@ static ins_real crossed(const ins_real* B, const ins_real* h, const ins_real* h_
     ins_real sum = 0;
     for (unsigned i = 0; i < INS_KF15_N; i++)
     {
-        sum += h[i] * ins_vec_dot(B + i * INS_KF15_SCALE_N, h_s);
+        if (h[i] != 0)
+        {
+            sum += h[i] * ins_vec_dot(B + i * INS_KF15_SCALE_N, h_s);
+        }
     }
     return sum;
+}
+
+static int feels_rate(const ins_real h[INS_KF15_N])
+{
+    return h[INS_KF15_BG] != 0 || h[INS_KF15_BG + 1] != 0 || h[INS_KF15_BG + 2] != 0;
 }
 
 ins_real ins_gps_ins_scale_product(ins_gps_ins_t* base, const ins_real a[INS_KF15_N], const ins_real b[INS_KF15_N])
@@ -95,6 +103,10 @@ ins_real ins_gps_ins_scale_product(ins_gps_ins_t* base, const ins_real a[INS_KF1
     const ins_real* const B = gps_ins_scale(base)->kf.B;
     ins_real a_s[INS_KF15_SCALE_N];
     ins_real b_s[INS_KF15_SCALE_N];
+    if (!feels_rate(a) && !feels_rate(b))
+    {
+        return 0;
+    }
     scale_row(base, a, a_s);
     scale_row(base, b, b_s);
     ins_real sum = crossed(B, a, b_s) + crossed(B, b, a_s);

@@ -76,16 +76,18 @@ static unsigned columns_of(unsigned i)
     return i < INS_KF15_V ? 0 : 3;
 }
 
-/// M + G B2 / 2
-static void add_half(const ins_real G[18], const ins_real* B2, ins_real* M)
+/// G B2 / 2: the first SCALE_MOST rows, the others are 0.
+static void half_driven(const ins_real G[18], const ins_real* restrict B2, ins_real* restrict half)
 {
     for (unsigned i = 0; i < SCALE_MOST; i++)
     {
-        const ins_real* const g = G + 3 * i;
         const ins_real* const b = B2 + columns_of(i) * SCALE_N;
+        const ins_real g0 = INS_C(0.5) * G[3 * i];
+        const ins_real g1 = INS_C(0.5) * G[3 * i + 1];
+        const ins_real g2 = INS_C(0.5) * G[3 * i + 2];
         for (unsigned j = 0; j < SCALE_N; j++)
         {
-            M[i * SCALE_N + j] += INS_C(0.5) * (g[0] * b[j] + g[1] * b[SCALE_N + j] + g[2] * b[2 * SCALE_N + j]);
+            half[i * SCALE_N + j] = g0 * b[j] + g1 * b[SCALE_N + j] + g2 * b[2 * SCALE_N + j];
         }
     }
 }
@@ -113,28 +115,53 @@ void ins_kf15_scale_propagate(ins_kf15_scale_t* self, ins_kf15_t* kf, const ins_
 {
     ins_real G[18];
     ins_real M[INS_KF15_N * SCALE_N];
+    ins_real half[SCALE_MOST * SCALE_N];
+    ins_real keep[SCALE_N];
+    ins_real q[SCALE_N];
     ins_real* const B2 = self->B + INS_KF15_N * SCALE_N;
-    const ins_kf15_scale_sensors_t* const s = &self->sensors;
-    const ins_real fall[2] = {model->dt / s->gyro_tau, model->dt / s->accel_tau};
-    drive(model, theta_b, v_b, G);
-    turn_crossed(model, self->B, M);
-    add_half(G, B2, M);
-    ins_kf15_propagate(kf, model);
-    scale_spread(G, M, kf->P);
-    add_half(G, B2, M);
     for (unsigned j = 0; j < SCALE_N; j++)
     {
-        const ins_real fall_j = fall[j / 3];
-        const ins_real sigma = j < 3 ? s->gyro_sigma : s->accel_sigma;
-        for (unsigned i = 0; i < INS_KF15_N; i++)
+        const ins_real sigma = j < 3 ? self->sensors.gyro_sigma : self->sensors.accel_sigma;
+        const ins_real fall = model->dt / (j < 3 ? self->sensors.gyro_tau : self->sensors.accel_tau);
+        keep[j] = 1 - fall;
+        q[j] = sigma * sigma * fall * (2 - fall); // the variance of its own stays
+    }
+    drive(model, theta_b, v_b, G);
+    half_driven(G, B2, half);
+    turn_crossed(model, self->B, M);
+    for (unsigned i = 0; i < SCALE_MOST * SCALE_N; i++)
+    {
+        M[i] += half[i];
+    }
+    ins_kf15_propagate(kf, model);
+    scale_spread(G, M, kf->P);
+    for (unsigned i = 0; i < SCALE_MOST * SCALE_N; i++)
+    {
+        M[i] += half[i];
+    }
+    for (unsigned i = 0; i < INS_KF15_N * SCALE_N; i += SCALE_N)
+    {
+        for (unsigned j = 0; j < SCALE_N; j++)
         {
-            self->B[i * SCALE_N + j] = M[i * SCALE_N + j] - fall_j * M[i * SCALE_N + j];
+            self->B[i + j] = keep[j] * M[i + j];
         }
-        for (unsigned i = 0; i < SCALE_N; i++)
+    }
+    for (unsigned i = 0; i < SCALE_N; i++)
+    {
+        for (unsigned j = 0; j < SCALE_N; j++)
         {
-            B2[i * SCALE_N + j] *= (1 - fall[i / 3]) * (1 - fall_j);
+            B2[i * SCALE_N + j] *= keep[i] * keep[j];
         }
-        B2[j * SCALE_N + j] += sigma * sigma * fall_j * (2 - fall_j); // the variance of its own stays
+        B2[i * SCALE_N + i] += q[i];
+    }
+}
+
+/// y += k x, elements of x `step` apart.
+static inline void add_scaled(unsigned n, ins_real* restrict y, ins_real k, const ins_real* restrict x, unsigned step)
+{
+    for (unsigned j = 0; j < n; j++)
+    {
+        y[j] += k * x[j * step];
     }
 }
 
@@ -152,28 +179,18 @@ static void times_all(const ins_kf15_scale_t* self, const ins_kf15_t* kf, const 
     }
     for (unsigned i = 0; i < INS_KF15_N; i++)
     {
-        const ins_real h_i = h[i];
-        const ins_real* const p = kf->P + i * INS_KF15_ROW;
-        const ins_real* const b = self->B + i * SCALE_N;
-        for (unsigned j = 0; h_i != 0 && j < KF15_COLUMNS; j++)
+        if (h[i] != 0)
         {
-            g[j] += h_i * p[j];
-        }
-        for (unsigned j = 0; h_i != 0 && j < SCALE_N; j++)
-        {
-            g_s[j] += h_i * b[j];
+            add_scaled(KF15_COLUMNS, g, h[i], kf->P + i * INS_KF15_ROW, 1);
+            add_scaled(SCALE_N, g_s, h[i], self->B + i * SCALE_N, 1);
         }
     }
     for (unsigned k = 0; k < SCALE_N; k++)
     {
-        const ins_real h_k = h_s[k];
-        for (unsigned i = 0; h_k != 0 && i < INS_KF15_N; i++)
+        if (h_s[k] != 0)
         {
-            g[i] += h_k * self->B[i * SCALE_N + k];
-        }
-        for (unsigned j = 0; h_k != 0 && j < SCALE_N; j++)
-        {
-            g_s[j] += h_k * self->B[(INS_KF15_N + k) * SCALE_N + j];
+            add_scaled(INS_KF15_N, g, h_s[k], self->B + k, SCALE_N);
+            add_scaled(SCALE_N, g_s, h_s[k], self->B + (INS_KF15_N + k) * SCALE_N, 1);
         }
     }
 }
