@@ -85,6 +85,26 @@ def test_drives_never_seen(tmp_path, seed):
     assert any("ahead of the axle; slips" in note for note in result["notes"])
 
 
+def test_scale_factors_are_found(tmp_path, monkeypatch):
+    """Gyros that read 1.5 % too much about all axes: the vertical one turns the car."""
+    usual = drive_kit.imu_config
+
+    def wrong(seed):
+        config = usual(seed)
+        config.gyro.scale = [0.015] * 3
+        return config
+
+    monkeypatch.setattr(drive_kit, "imu_config", wrong)
+    path = drive_kit.write(tmp_path, 5, SECONDS)
+    result = solved(path, **{"noise.scale_g": 0.01, "noise.scale_a": 0.005})[3]
+    notes = [note for note in result["notes"] if "too much" in note]
+    assert [note.split()[0] for note in notes] == ["gyros", "accelerometers"]
+    found, to = (float(part.split(",")[2].split()[0]) for part in notes[0].split(" too much, to "))
+    print(notes[0])
+    assert to < 0.3
+    assert abs(found - 1.5) < 3.0 * to
+
+
 def test_wheels_hold_an_outage(tmp_path):
     path = drive_kit.write(tmp_path, 2, SECONDS)
     alone = solved(path)[3]["outages"]
@@ -196,6 +216,7 @@ def test_outage_windows(tmp_path):
         ("imu.force_unit", '"furlong"', ("imu.force_unit", "'m/s^2', 'g', 'mg'")),
         ("imu.csv", '"none.csv"', ("none.csv", "cannot be read")),
         ("filter", '"magic"', ("filter", "'gps_ins'")),
+        ("noise.scale_g", "0.2", ("noise.scale_g", "0.1")),
     ],
 )
 def test_a_wrong_configuration(ins, key, value, words):
@@ -240,6 +261,11 @@ def test_every_file_of_dead_reckoning(ins, tmp_path):
     assert len(table) > 2800
     json.loads(names["json"].read_text(), parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
     assert names["html"].read_text().count("<svg") == 3
+
+
+def test_the_smoother_refuses_scale_factors():
+    with pytest.raises(UsageError, match=r"noise\.scale_a.*found 0\.01, but the smoother"):
+        replay_config.load(WALK / "walk.toml", {"smooth": True, "noise.scale_a": 0.01})
 
 
 def test_every_file(ins, tmp_path):

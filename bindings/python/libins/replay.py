@@ -67,6 +67,7 @@ class Run:
     smoothed: Array | None
     counts: dict[str, int]
     starts: tuple[str, ...]
+    scales: tuple[str, ...] = ()
 
 
 def read(config: Config, folder: Path) -> Drive:
@@ -233,6 +234,7 @@ def noise_settings(config: Config, drive: Drive, given: Increments) -> tuple[dic
         "arw_rad_rts": "arw", "vrw_m_s_rts": "vrw", "bias_g_rad_s": "bg_sigma", "bias_a_m_s2": "ba_sigma",
         "tau_g_s": "bg_tau", "tau_a_s": "ba_tau",
     }  # fmt: skip
+    settings |= {"scale_g": config.noise.scale_g, "scale_a": config.noise.scale_a}
     settings |= {to: value for of, to in names.items() if (value := getattr(config.noise, of)) is not None}
     period = float(np.median(given.period))
     settings |= {
@@ -283,7 +285,8 @@ def one_pass(
             replay.run(replay.time_s + CHUNK_S)
             progress(min(1.0, (replay.time_s - given.t[0]) / (given.t[-1] - given.t[0])))
         how = f"{start.t:.2f} s: {start.how}"
-        parts.append(Run(replay.states, replay.checks, filter_.smooth() if smooth else None, filter_.counts(), (how,)))
+        smoothed = filter_.smooth() if smooth else None
+        parts.append(Run(replay.states, replay.checks, smoothed, filter_.counts(), (how,), scale_notes(filter_)))
     if not parts:
         raise problem or UsageError(f"{drive.gnss.path}: no {SEGMENT_MIN_S:g} s of the IMU without a gap")
     counts: dict[str, int] = {}
@@ -296,6 +299,22 @@ def one_pass(
         np.vstack([part.smoothed for part in parts if part.smoothed is not None]) if smooth else None,
         counts,
         tuple(how for part in parts for how in part.starts),
+        tuple(note for part in parts for note in part.scales),
+    )
+
+
+def scale_notes(filter_: Any) -> tuple[str, ...]:
+    """The scale factors at the end, and how sure, if there are any."""
+    found = filter_.scales()
+    if found is None:
+        return ()
+    parts = (("gyros", found[0], found[2]), ("accelerometers", found[1], found[3]))
+
+    def percent(values: Sequence[float], form: str) -> str:
+        return ", ".join(format(100.0 * value, form) for value in values) + " %"
+
+    return tuple(
+        f"{name} read {percent(much, '+.3f')} too much, to {percent(to, '.3f')}" for name, much, to in parts if any(to)
     )
 
 
@@ -371,6 +390,7 @@ def solve(config: Config, drive: Drive, progress: Progress) -> Solution:
         )
         spans_of.append(tuple(spans))
         if k == 0:
+            notes += runs[0].scales
             _, late = velocity_late(config, choose(drive.gnss, ~within(drive.gnss.t, spans)))
             notes += [text for text in (late, told) if text]
             if max(place, velocity) > 1.0:

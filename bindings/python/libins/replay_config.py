@@ -65,7 +65,10 @@ class WheelsFile:
 
 @dataclass(frozen=True, kw_only=True)
 class Noise:
-    """Of the IMU; what is left out is measured at standstills, or that of a usual MEMS part."""
+    """Of the IMU; what is left out is measured at standstills, or that of a usual MEMS part.
+
+    scale_g, scale_a: standard deviations of scale factors, 0.01 is a hundredth; 0: none are estimated.
+    """
 
     arw_rad_rts: float | None = field(None, above=0.0)
     vrw_m_s_rts: float | None = field(None, above=0.0)
@@ -73,6 +76,8 @@ class Noise:
     bias_a_m_s2: float | None = field(None, above=0.0)
     tau_g_s: float | None = field(None, above=0.0)
     tau_a_s: float | None = field(None, above=0.0)
+    scale_g: float = field(0.0, minimum=0.0, maximum=0.1)
+    scale_a: float = field(0.0, minimum=0.0, maximum=0.1)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -175,6 +180,12 @@ def load(path: Path, overrides: Mapping[str, Any]) -> Config:
     if config.outages is not None and config.outages.period_s <= config.outages.length_s:
         found = f"found {config.outages.period_s}, not more than length_s: nothing would be left between the outages"
         raise document.refuse(("outages", "period_s"), found)
+    if config.smooth and (config.noise.scale_g > 0.0 or config.noise.scale_a > 0.0):
+        key = "scale_g" if config.noise.scale_g > 0.0 else "scale_a"
+        found = (
+            f"found {getattr(config.noise, key)}, but the smoother knows no scale factors: take smooth away, or them"
+        )
+        raise document.refuse(("noise", key), found)
     for table, names in (
         (config.gnss, ("lever_arm_m", "sigma_floor_m", "sigma_velocity_floor_m_s")),
         (config.wheels, ("lever_arm_m",)),

@@ -265,6 +265,13 @@ ins_gps_ins_start_t beginning(double t, const std::array<double, 4>& q_nb, const
     return s;
 }
 
+nb::object scales(const ins_post::GpsIns& filter)
+{
+    const auto found = filter.scales();
+    return found ? nb::object(nb::make_tuple(found->gyro, found->accel, found->sigma_gyro, found->sigma_accel))
+                 : nb::none();
+}
+
 nb::dict counts(const ins_post::GpsIns& filter)
 {
     nb::dict d;
@@ -293,13 +300,17 @@ NB_MODULE(_post, m)
                const std::array<double, INS_KF15_N>& sigma, double nhc_period_s, double wheels_sigma,
                double yaw_rate_sigma, double node_period_s)
             {
-                new (self)
-                    ins_post::GpsIns(configuration(settings), beginning(t, q_nb, v_n, position, gyro_bias, sigma),
-                                     {nhc_period_s, wheels_sigma, yaw_rate_sigma, node_period_s});
+                ins_post::GpsInsOptions options{nhc_period_s, wheels_sigma, yaw_rate_sigma, node_period_s};
+                take(settings, "scale_g", options.scale_g);
+                take(settings, "scale_a", options.scale_a);
+                new (self) ins_post::GpsIns(configuration(settings),
+                                            beginning(t, q_nb, v_n, position, gyro_bias, sigma), options);
             },
             "settings"_a, "t_s"_a, "q_nb"_a, "v_n"_a, "position"_a, "gyro_bias"_a, "sigma"_a, "nhc_period_s"_a = 0.0,
             "wheels_sigma"_a = 0.1, "yaw_rate_sigma"_a = 0.01, "node_period_s"_a = 0.0,
-            "settings: members of ins_gps_ins_config_t by name; the others keep their preset.")
+            "settings: members of ins_gps_ins_config_t by name; the others keep their preset. scale_g, scale_a: "
+            "standard deviations of scale factors; both 0 or not there: none.")
+        .def("scales", scales, "(gyros, accelerometers, their standard deviations), three each; None: not estimated.")
         .def("counts", counts, "What was used and refused, by what it is.")
         .def(
             "smooth", [](const ins_post::GpsIns& self) { return state_table(ins_post::smooth(self.nodes())); },

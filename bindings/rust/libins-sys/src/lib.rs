@@ -35,6 +35,7 @@ pub const INS_GPS_INS_GATE3_999: ins_real = 16.266236;
 pub const INS_KALMAN_GATE2_99: ins_real = 9.2103404;
 pub const INS_KALMAN_GATE_99: ins_real = 6.6348966;
 pub const INS_KALMAN_GATE_999: ins_real = 10.8275662;
+pub const INS_KF15_SCALE_MAX: ins_real = 0.1;
 pub const INS_MARKOV_DEG_PER_HOUR: ins_real = 4.848_136_811_095_36e-6;
 pub const INS_MARKOV_GIMBAL_SIGMA: ins_real = 0.01 * INS_MARKOV_DEG_PER_HOUR;
 pub const INS_MARKOV_GIMBAL_TAU_S: ins_real = 7200.0;

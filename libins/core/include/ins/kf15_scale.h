@@ -13,7 +13,7 @@
 /// ins/kf15.h says of dbg holds for dbg + w ds, of dba for dba + f ds, axis by axis. A bias moves by (1 + s) less than that; left out.
 /// The covariance of all 21 is P of ins_kf15_t and six columns more, B: the filter of 15 does not know of them, and costs what it did.
 /// Source: P. D. Groves, Principles of GNSS, Inertial, and Multisensor Navigation (2013), 14.2.4 and 14.2.6.
-/// Cost:   docs/kf15.md. sqrt of libm, no allocation; P and the scale factors' own part of B are symmetric to the last bit.
+/// Cost:   docs/gps_ins.md. sqrt of libm, no allocation; P and the scale factors' own part of B are symmetric to the last bit.
 /// SPDX-License-Identifier: MIT
 #ifndef INS_KF15_SCALE_H_INCLUDED
 #define INS_KF15_SCALE_H_INCLUDED

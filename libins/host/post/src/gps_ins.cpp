@@ -12,7 +12,8 @@ namespace ins_post
 namespace
 {
 constexpr double NS_PER_S = 1e9;
-constexpr double PAST_S = 0.5; // of the antenna
+constexpr double PAST_S = 0.5;      // of the antenna
+constexpr double SCALE_TAU_S = 1e6; // of scale factors: all but constant
 constexpr double NOTHING = std::numeric_limits<double>::quiet_NaN();
 
 int64_t nanoseconds(double t)
@@ -29,9 +30,16 @@ ins_position_t place(const Vec3& llh)
 GpsIns::GpsIns(const ins_gps_ins_config_t& config, const ins_gps_ins_start_t& start, const GpsInsOptions& options)
     : n_(), options_(options), start_ns_(start.t_ns)
 {
-    if (ins_gps_ins_init(&n_, &config, &start) != INS_OK)
+    const ins_kf15_scale_sensors_t scales = {options.scale_g, options.scale_a, SCALE_TAU_S, SCALE_TAU_S};
+    scaled_ = options.scale_g != 0.0 || options.scale_a != 0.0;
+    if ((scaled_ ? ins_gps_ins_scale_init(&n_, &config, &scales, &start)
+                 : ins_gps_ins_init(&n_.base, &config, &start)) != INS_OK)
     {
         throw std::invalid_argument("GpsIns: a figure of the configuration or of the start is out of its range");
+    }
+    if (scaled_ && options.node_period > 0.0)
+    {
+        throw std::invalid_argument("GpsIns: the smoother knows no scale factors; take nodes or them");
     }
     t_ = static_cast<double>(start.t_ns) / NS_PER_S;
     nhc_due_ = node_due_ = t_;
@@ -52,15 +60,15 @@ void GpsIns::keep_after()
 {
     if (options_.node_period > 0.0)
     {
-        nodes_.back().after = nominal(n_);
-        nodes_.back().P_after = square(n_.kf);
+        nodes_.back().after = nominal(n_.base);
+        nodes_.back().P_after = square(n_.base.kf);
     }
 }
 
 void GpsIns::aid(double t, ins_status_t (*how)(ins_gps_ins_t*))
 {
-    keep_before(t, n_);
-    (void)how(&n_); // refusals are in n_.count
+    keep_before(t, n_.base);
+    (void)how(&n_.base); // refusals are in n_.base.count
     keep_after();
 }
 
@@ -73,15 +81,15 @@ void GpsIns::increment(double t, const Increment& increment)
     started_ = true;
     const ins_increment_t in = {{increment.theta_b[0], increment.theta_b[1], increment.theta_b[2]},
                                 {increment.v_b[0], increment.v_b[1], increment.v_b[2]}};
-    const ins_gps_ins_t before = n_;
-    if (ins_gps_ins_step(&n_, nanoseconds(t), increment.period, &in) < 0)
+    const ins_gps_ins_scale_t before = n_;
+    if (ins_gps_ins_step(&n_.base, nanoseconds(t), increment.period, &in) < 0)
     {
         return;
     }
     t_ = t;
     for (size_t i = 0; i < w_ib_b_.size(); i++)
     {
-        w_ib_b_[i] = increment.theta_b[i] / increment.period - n_.gyro_bias[i];
+        w_ib_b_[i] = increment.theta_b[i] / increment.period - n_.base.gyro_bias[i];
     }
     past_.push_back(antenna());
     while (past_.front().t < t - PAST_S)
@@ -90,10 +98,10 @@ void GpsIns::increment(double t, const Increment& increment)
     }
     if (options_.node_period > 0.0)
     {
-        Phi_ = product(transition(n_.model), Phi_);
-        if (n_.count.rests != before.count.rests)
+        Phi_ = product(transition(n_.base.model), Phi_);
+        if (n_.base.count.rests != before.base.count.rests)
         {
-            ins_gps_ins_t predicted = before;
+            ins_gps_ins_t predicted = before.base; // no scale factors where nodes are kept
             predicted.cfg.still.samples = predicted.still.cfg.samples = 0;
             (void)ins_gps_ins_step(&predicted, nanoseconds(t), increment.period, &in);
             keep_before(t, predicted);
@@ -107,7 +115,7 @@ void GpsIns::increment(double t, const Increment& increment)
     }
     if (options_.node_period > 0.0 && t >= node_due_)
     {
-        keep_before(t, n_);
+        keep_before(t, n_.base);
         keep_after();
     }
 }
@@ -118,14 +126,14 @@ void GpsIns::wheels(double t, const Wheels& wheels)
     {
         return;
     }
-    keep_before(t, n_);
+    keep_before(t, n_.base);
     if (std::isfinite(wheels.speed))
     {
-        (void)ins_gps_ins_odometer(&n_, wheels.speed, options_.wheels_sigma);
+        (void)ins_gps_ins_odometer(&n_.base, wheels.speed, options_.wheels_sigma);
     }
     if (std::isfinite(wheels.yaw_rate))
     {
-        (void)ins_gps_ins_yaw_rate(&n_, wheels.yaw_rate, options_.yaw_rate_sigma);
+        (void)ins_gps_ins_yaw_rate(&n_.base, wheels.yaw_rate, options_.yaw_rate_sigma);
     }
     keep_after();
 }
@@ -134,7 +142,7 @@ Instant GpsIns::antenna() const
 {
     Instant now{};
     now.t = t_;
-    ins_strapdown_point(&n_.nav, n_.cfg.antenna_b, w_ib_b_.data(), now.v_n.data(), &now.position);
+    ins_strapdown_point(&n_.base.nav, n_.base.cfg.antenna_b, w_ib_b_.data(), now.v_n.data(), &now.position);
     return now;
 }
 
@@ -188,18 +196,18 @@ Check GpsIns::fix(double t, const Fix& fix)
         std::copy(v_n.begin(), v_n.end(), in.v_n);
         std::copy(fix.sigma_p.begin(), fix.sigma_p.end(), in.sigma_p);
         std::copy(fix.sigma_v.begin(), fix.sigma_v.end(), in.sigma_v);
-        const ins_gps_ins_count_t counted = n_.count;
-        keep_before(t, n_);
-        const ins_status_t status = ins_gps_ins_gnss(&n_, &in);
+        const ins_gps_ins_count_t counted = n_.base.count;
+        keep_before(t, n_.base);
+        const ins_status_t status = ins_gps_ins_gnss(&n_.base, &in);
         keep_after();
         aided_ = status == INS_OK;
-        const unsigned position = status == INS_E_RANGE || n_.count.fix_position != counted.fix_position ? 7U : 0U;
-        const unsigned velocity = status == INS_E_RANGE || n_.count.fix_velocity != counted.fix_velocity ? 7U : 0U;
+        const unsigned position = status == INS_E_RANGE || n_.base.count.fix_position != counted.fix_position ? 7U : 0U;
+        const unsigned velocity = status == INS_E_RANGE || n_.base.count.fix_velocity != counted.fix_velocity ? 7U : 0U;
         check.refused = position | velocity << 3;
         for (size_t i = 0; i < check.nis.size() && status != INS_E_RANGE; i++)
         {
             const double sigma = i < 3 ? fix.sigma_p[i] : fix.sigma_v[i - 3];
-            check.nis[i] = sigma > 0.0 ? n_.check.nis[i] : NOTHING;
+            check.nis[i] = sigma > 0.0 ? n_.base.check.nis[i] : NOTHING;
         }
     }
     const Instant after = antenna();
@@ -226,14 +234,31 @@ std::vector<Node> GpsIns::nodes() const
     std::vector<Node> kept = nodes_;
     if (!kept.empty() && kept.back().t < t_)
     {
-        kept.push_back({t_, nominal(n_), nominal(n_), square(n_.kf), square(n_.kf), Phi_});
+        kept.push_back({t_, nominal(n_.base), nominal(n_.base), square(n_.base.kf), square(n_.base.kf), Phi_});
     }
     return kept;
 }
 
+std::optional<Scales> GpsIns::scales() const
+{
+    if (!scaled_)
+    {
+        return std::nullopt;
+    }
+    Scales out{};
+    for (size_t i = 0; i < 3; i++)
+    {
+        out.gyro[i] = n_.gyro[i];
+        out.accel[i] = n_.accel[i];
+        out.sigma_gyro[i] = std::sqrt(n_.kf.B[(INS_KF15_N + i) * INS_KF15_SCALE_N + i]);
+        out.sigma_accel[i] = std::sqrt(n_.kf.B[(INS_KF15_N + 3 + i) * INS_KF15_SCALE_N + 3 + i]);
+    }
+    return out;
+}
+
 State GpsIns::state() const
 {
-    State state = described(t_, nominal(n_), square(n_.kf));
+    State state = described(t_, nominal(n_.base), square(n_.base.kf));
     state.aided = aided_;
     return state;
 }

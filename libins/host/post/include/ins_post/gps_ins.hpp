@@ -12,6 +12,7 @@
 #include "ins_post/replay.hpp"
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 namespace ins_post
 {
@@ -47,6 +48,14 @@ struct GpsInsOptions
     double wheels_sigma;   ///< of a speed [m/s]
     double yaw_rate_sigma; ///< [rad/s]
     double node_period;    ///< of nodes kept for a smoother [s], besides those of measurements; 0: none are kept
+    double scale_g = 0.0, scale_a = 0.0; ///< standard deviations of scale factors: 0.01 is a hundredth; both 0: none
+};
+
+/// Of gyros and accelerometers, and how sure: 0.01 reads a hundredth high.
+struct Scales
+{
+    Vec3 gyro, accel;
+    Vec3 sigma_gyro, sigma_accel;
 };
 
 /// The antenna.
@@ -60,7 +69,8 @@ struct Instant
 class GpsIns : public Filter
 {
   public:
-    /// Throws std::invalid_argument: what ins_gps_ins_init refuses. Events before start.t_ns are passed over.
+    /// Throws std::invalid_argument: what ins_gps_ins_init and ins_gps_ins_scale_init refuse, or nodes with scale factors. Events
+    /// before start.t_ns are passed over.
     GpsIns(const ins_gps_ins_config_t& config, const ins_gps_ins_start_t& start, const GpsInsOptions& options);
     bool started() const override { return started_; }
     void increment(double t, const Increment& increment) override;
@@ -68,7 +78,9 @@ class GpsIns : public Filter
     Check fix(double t, const Fix& fix) override;
     State state() const override;
 
-    const ins_gps_ins_count_t& count() const { return n_.count; }
+    const ins_gps_ins_count_t& count() const { return n_.base.count; }
+    /// If there are any.
+    std::optional<Scales> scales() const;
     /// Those kept, and now.
     std::vector<Node> nodes() const;
 
@@ -79,7 +91,8 @@ class GpsIns : public Filter
     void keep_after();
     void aid(double t, ins_status_t (*how)(ins_gps_ins_t*));
 
-    ins_gps_ins_t n_;
+    ins_gps_ins_scale_t n_; ///< base alone without scale factors
+    bool scaled_ = false;
     GpsInsOptions options_;
     bool started_ = false;
     bool aided_ = false;
