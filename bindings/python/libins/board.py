@@ -276,7 +276,7 @@ class Board(Bench):
             self._run.restore(snap.state)
         except ValueError as error:
             raise UsageError(f"restore: {error}") from error
-        self._run.set_motion(run.motion_of(snap.scenario))
+        self._run.set_motion(run.motion_of(snap.scenario), keep=True)
         self.scenario = snap.scenario
         self._inbox.octets, self._inbox.read = list(snap.received), snap.read
         self.volts.held = dict(snap.volts)

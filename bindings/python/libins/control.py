@@ -10,7 +10,7 @@ from libins.cdb import ADDRESS_END, Cdb, Function, Line
 from libins.errors import UsageError
 from libins.places import Memory, Value
 from libins.run import PS_PER_S
-from libins.timeline import Timeline
+from libins.timeline import SPACING, Timeline
 from libins.unwind import Frame, Unwinder
 from libins.watch import Expression
 
@@ -18,6 +18,10 @@ SLICE_CYCLES = 1_000_000
 """Between two looks at whether the user wants to stop."""
 SLEEP_CYCLES = 1_000_000
 """A step waits no longer for an instruction to be executed."""
+SCANS_KEPT = 128
+"""So that a snapshot late in a run is no larger than an early one."""
+SEEN_SPACING = 4 * SPACING
+"""Machine cycles between snapshots where a follower has work at each."""
 SP = 0x81
 
 
@@ -32,9 +36,11 @@ class Control:
         tables = loaded.tables
         self.scenario, self.table = loaded, table
         self.navigator = navigator and tables.nav is not None
-        self.run: Any = run.build(loaded, tables.seed, not self.navigator, trace=seen, listen=True, seen=seen)
+        self.run: Any = run.build(
+            loaded, tables.seed, not self.navigator, trace=seen, listen=True, seen=seen, scans_kept=SCANS_KEPT
+        )
         self.end_ps = round(tables.stop_s * PS_PER_S)
-        self.timeline = Timeline(self.run, tables.clock_hz)
+        self.timeline = Timeline(self.run, tables.clock_hz, SEEN_SPACING if seen else SPACING)
         self.memory = Memory(self.run, self._write)
         self.breakpoints: dict[int, Breakpoint] = {}
         self.wants_to_stop: Callable[[], bool] = lambda: False

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from libins import _run, faults, gyro_free, sixacc, sixacc_calibration
+from libins import _run, faults, gyro_free, knobs, sixacc, sixacc_calibration
 from libins.errors import UsageError
 from libins.motions import motion_of
 from libins.program import Program
@@ -142,8 +142,16 @@ def nav_of(nav: Nav, gyro: Any) -> Any:
     return _run.nav(nav.period_s, nav.block_len, nav.sequence, nav.form, nav.rate_order, skew_s, gyro)
 
 
-def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: bool = False, seen: bool = False) -> Any:
-    """The run itself, at time 0. Raises UsageError."""
+def build(
+    scenario: Scenario,
+    seed: int,
+    outside: bool,
+    trace: bool,
+    listen: bool = False,
+    seen: bool = False,
+    scans_kept: int = 0,
+) -> Any:
+    """The run itself, at time 0; scans_kept: of the newest, 0 of all. Raises UsageError."""
     tables = scenario.tables
     gyro = gyro_of(tables.gyro, seed)
     six = tables.board == "8051_tlc2543_six"
@@ -155,6 +163,7 @@ def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: boo
     config.trace = trace
     config.listen = listen
     config.seen = seen
+    config.scans_kept = scans_kept
     if tables.nav is not None and not outside:
         config.nav = nav_of(tables.nav, gyro)
         config.start_at_truth = tables.nav.start == "truth"
@@ -172,6 +181,10 @@ def build(scenario: Scenario, seed: int, outside: bool, trace: bool, listen: boo
             run.add_fault(faults.built(fault, seed, place))
         except ValueError as error:
             raise UsageError(f"{scenario.path}: fault.{place}.{error}") from error
+    for turned in tables.knob:
+        run.add_knob(knobs.built(turned))
+    for sent in tables.send:
+        run.add_knob(knobs.built(sent))
     return run
 
 

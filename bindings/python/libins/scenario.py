@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from libins import faults, hexfile, net_scenario, sixacc_calibration, sixacc_tables
+from libins import faults, hexfile, knobs, net_scenario, sixacc_calibration, sixacc_tables
 from libins.errors import UsageError
 from libins.schema import Document, field
 from libins.sensor_tables import Gps, Track, check_lengths, check_outages, read_track
@@ -63,6 +63,8 @@ class Tables(Acquisition, Common):
     track: Track = field(Track)
     gps: Gps = field(Gps)
     gyro_free: GyroFree = field(GyroFree)
+    knob: list[knobs.Knob] = field([])
+    send: list[knobs.Send] = field([])
 
 
 @dataclass(frozen=True)
@@ -159,6 +161,7 @@ def read(document: Document, firmware: Path | None = None, combination: Mapping[
     elif tables.stop_samples is not None:
         raise document.refuse(("stop_samples",), "counts the navigator's samples, but there is no [nav] table")
     faults.check(document, tables.fault, faults.acquisition(RAM_OCTETS[tables.part]))
+    knobs.check(document, tables.knob, tables.send, gyros=tables.sixacc is None)
     check_cuts(document, ("link",), tables.link.cuts_s)
     check_common(document, tables)
     image_path = firmware or resolve(document, ("firmware",), tables.firmware, PACKAGE / "firmware")

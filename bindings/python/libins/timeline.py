@@ -57,6 +57,10 @@ class Follower(Protocol):
         """The run has come to another instant, no further than the next snapshot; what the host received meanwhile."""
         ...
 
+    def cut(self, at_ps: int) -> None:
+        """What came after an instant is no longer: something else was done there."""
+        ...
+
     def save(self) -> object:
         """What restore() needs."""
         ...
@@ -135,9 +139,12 @@ class Timeline:
         del self._marks[later:]
         if self._near is not None and self._near.position > now:
             self._near = None
+        if self._follower is not None:
+            self._follower.cut(now.at_ps)
+        result = change(self.run)  # one that is refused has not been
         self._inputs.append(Input(now.at_ps, change))
         self._applied += 1
-        return change(self.run)
+        return result
 
     def advance(self, goal_ps: int, to_octet: bool = False) -> bool:
         """Run on, inputs of the known future included. Returns False where the run stopped before the goal."""

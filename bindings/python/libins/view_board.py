@@ -15,18 +15,19 @@ from libins.errors import UsageError
 from libins.machine import COLUMNS
 from libins.places import MEMORIES
 from libins.tables import is_image
-from libins.view_history import LINE_PINS, WIRES, History
+from libins.view_hand import LINE, Hand, fault_forms
+from libins.view_history import LINE_PINS, OCTETS_KEPT, WIRES, History, Rows
 from libins.view_session import Asked, Json, Move
 
 FOREVER_PS = 10**18
-EDGES_TOLD, SAMPLES_TOLD = 4000, 1000
+EDGES_TOLD, SAMPLES_TOLD = 2000, 500
 """Of one frame at most; of more, the newest."""
+NEWEST_SAMPLES = 64
+"""Among them, the newest of each channel is looked for."""
 EDGES_ASKED = 200_000
 """Of one `edges` at most."""
 WATCHED_MAX = 64
-OCTETS_MAX = 4096
 TRIGGERS: Mapping[str, tuple[bool, bool]] = {"rise": (True, False), "fall": (False, True), "level": (True, True)}
-LINE = "uart"
 
 
 class BoardEngine:
@@ -37,6 +38,7 @@ class BoardEngine:
         self.d = debugger
         self.history = History()
         self.d.timeline.follow(self.history)
+        self.hand = Hand(debugger)
         self.sources = debug_views.Sources(debugger, list(folders))
         motion_end_s = self._motion_end_s()
         self.d.end_ps = FOREVER_PS if motion_end_s is None else round(motion_end_s * 1e12)
@@ -57,12 +59,10 @@ class BoardEngine:
             "to": self._moved(self._to),
         }
         self.commands: Mapping[str, Callable[[Asked], Json]] = {
-            "reset": self._reset,
             "break_add": self._break_add,
             "break_remove": self._break_remove,
             "breaks": lambda asked: {"breaks": self._breaks()},
             "trigger": self._set_trigger,
-            "uart_send": self._uart_send,
             "watch": self._watch,
             "source": self._source,
             "disassembly": self._disassembly,
@@ -71,6 +71,7 @@ class BoardEngine:
             "edges": self._edges,
             "snapshot": self._snapshot,
             "files": lambda asked: {"files": self._files()},
+            **self.hand.commands,
         }
 
     @property
@@ -106,8 +107,8 @@ class BoardEngine:
             "parts": view_parts.parts(s.tables, self.d.run.channels),
             "lines": [LINE],
             "bauds": {LINE: s.tables.link.baud},
-            "knobs": [],
-            "faults": {},
+            "knobs": self.hand.knobs(),
+            "faults": fault_forms(),
             "files": self._files(),
             "functions": [f.name for f in self.d.table.functions] if self.d.table else [],
             "registers": ["pc", *debug_views.NAMES],
@@ -120,8 +121,9 @@ class BoardEngine:
 
     def frame(self, whole: bool) -> Json:
         """See Engine."""
-        run, history = self.d.run, self.history
-        now = self.now_ps
+        run, now = self.d.run, self.now_ps
+        sampled = self.history.samples.until(now)
+        newest = self.history.samples.part(sampled - NEWEST_SAMPLES, sampled).tolist()
         line = self.d.line()
         told: Json = {
             "t_ps": now,
@@ -133,36 +135,45 @@ class BoardEngine:
             "pins": {f"P{port}": sum(run.pin(port, bit) << bit for bit in range(8)) for port in range(4)},
             "nets": {name: int(run.level(name)) for name in WIRES},
             "registers": self._registers(),
-            "volts": {str(channel): volts for channel, (volts, _) in sorted(history.latest.items())},
-            "codes": {str(channel): code for channel, (_, code) in sorted(history.latest.items())},
+            "volts": {str(int(channel)): volts for _, channel, _, volts in newest},
+            "codes": {str(int(channel)): int(code) for _, channel, code, _ in newest},
             "breaks": self._breaks(),
-            **self._passed(whole),
+            **self._passed(whole, now),
             **self._attitude(now),
             "link": self._link(),
+            "knobs": self.hand.values(),
+            "faults": self.hand.fault_states(),
         }
         if self._watched:
             told["watch"] = [self._value(text) for text in self._watched]
         return told
 
-    def _passed(self, whole: bool) -> Json:
+    def _passed(self, whole: bool, now: int) -> Json:
         """What happened since the last frame."""
-        history = self.history
-        if whole:
-            (edges, lost), (samples, _) = (history.edges.last(EDGES_TOLD), 0), (history.samples.last(SAMPLES_TOLD), 0)
-        else:
-            (edges, lost), (samples, _) = history.edges.take_fresh(EDGES_TOLD), history.samples.take_fresh(SAMPLES_TOLD)
-        (tx, tx_from), (rx, rx_from) = history.tx.take_fresh(whole), history.rx.take_fresh(whole)
+        h = self.history
+
+        def new(rows: Rows, most: int) -> tuple[Any, int]:
+            """Its rows, and the number of the first."""
+            end = rows.until(now)
+            first = max(rows.gone if whole else rows.told, end - most)
+            return rows.part(first, end), first
+
+        (edges, first), (samples, _) = new(h.edges, EDGES_TOLD), new(h.samples, SAMPLES_TOLD)
+        (tx, tx_from), (rx, rx_from) = new(h.tx, OCTETS_KEPT), new(h.rx, OCTETS_KEPT)
+        line = {"tx": _hex(tx), "tx_from": tx_from, "rx": _hex(rx), "rx_from": rx_from}
         told: Json = {
             "edges": edges.tolist(),
-            "dropped": lost,
+            "dropped": 0 if whole else first - h.edges.told,
             "analog": [[int(at), int(channel), volts] for at, channel, _, volts in samples.tolist()],
-            "uart": {LINE: {"tx": tx, "tx_from": tx_from, "rx": rx, "rx_from": rx_from}},
+            "uart": {LINE: line},
             "led": {name: int(name in self._lit(edges)) for name in LINE_PINS.values()},
         }
         if not whole:
-            if history.rewound is not None:
-                told["rewound"] = history.rewound
-            history.rewound = None
+            for rows in (h.edges, h.samples, h.tx, h.rx):
+                rows.told = rows.until(now)
+            if h.rewound is not None:
+                told["rewound"] = h.rewound
+            h.rewound = None
         return told
 
     def _lit(self, edges: Any) -> set[str]:
@@ -238,11 +249,6 @@ class BoardEngine:
         timeline.go_near(t_ps)
         return Stop("limit")
 
-    def _reset(self, asked: Asked) -> Json:
-        power = bool(asked.message.get("power"))
-        self.d.do(lambda run: run.reset(power))
-        return {}
-
     # Breakpoints
 
     def _break_add(self, asked: Asked) -> Json:
@@ -290,20 +296,6 @@ class BoardEngine:
             self._trigger = self.d.add_edge(asked.text("wire"), rising, falling).number
         self._rearm()
         return {"number": self._trigger}
-
-    # What the outside does
-
-    def _uart_send(self, asked: Asked) -> Json:
-        line = asked.text("line", LINE)
-        if line != LINE:
-            raise UsageError(f"uart_send: line: found {line!r}, but this board's only line is {LINE!r}")
-        octets = asked_octets(asked)
-        taken = self.d.do(lambda run: run.send(octets))
-        if taken != len(octets):
-            raise UsageError(
-                f"uart_send: the transmitter took {taken} of {len(octets)} octets; let the board run first"
-            )
-        return {}
 
     # What is asked
 
@@ -360,7 +352,8 @@ class BoardEngine:
         for wire in wires:
             if wire not in WIRES:
                 raise UsageError(f"edges: wires: found {wire!r}, but {', '.join(WIRES)} are possible")
-        rows = self.history.edges.between(begin, end)
+        kept = self.history.edges
+        rows = kept.part(kept.until(begin - 1), kept.until(min(end, self.now_ps)))
         places = [WIRES.index(wire) for wire in wires]
         rows = rows[[wire in places for wire in rows[:, 1].tolist()]]
         dropped = max(0, len(rows) - EDGES_ASKED)
@@ -376,16 +369,5 @@ class BoardEngine:
             return {"name": f"{d.scenario.path.stem}.snapshot", "base64": base64.b64encode(path.read_bytes()).decode()}
 
 
-def asked_octets(asked: Asked) -> bytes:
-    """Of `hex` or `text`. Raises UsageError."""
-    if asked.has("hex"):
-        text = asked.text("hex")
-        try:
-            octets = bytes.fromhex(text)
-        except ValueError as error:
-            raise UsageError(f"{asked.name}: hex: found {text!r}: {error}; two digits an octet are needed") from error
-    else:
-        octets = asked.text("text").encode()
-    if not 0 < len(octets) <= OCTETS_MAX:
-        raise UsageError(f"{asked.name}: found {len(octets)} octets, but 1 to {OCTETS_MAX} are needed")
-    return octets
+def _hex(octets: Any) -> str:
+    return bytes(octets[:, 1].tolist()).hex()

@@ -1,7 +1,6 @@
 """What passed on a board's nets, inputs and line: kept for a page within bounds, and taken back with the run."""
 
 from collections import deque
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -31,99 +30,61 @@ for _place, (_pin, _) in enumerate(OTHERS, start=len(_run.WIRES)):
 
 
 class Rows:
-    """Rows of numbers by instant, the first column: the newest so many, and how many of them were told."""
+    """Rows of numbers by instant, the first column: the newest so many, numbered from the begin."""
 
     def __init__(self, kept: int, columns: int, kind: Any) -> None:
         """Nothing yet."""
         self._kept, self._empty = kept, np.empty((0, columns), kind)
         self._blocks: deque[Array] = deque()
-        self._count = 0
-        """Of rows in the blocks."""
-        self._fresh = 0
-        """Added and not told, those that are no longer kept included."""
+        self.gone = 0
+        """No longer kept."""
+        self.count = 0
+        """All since the begin."""
+        self.told = 0
+        """Those that pages know."""
 
     def add(self, rows: Array) -> None:
         """In the order of time, behind those that are there."""
-        if not len(rows):
-            return
-        self._blocks.append(rows)
-        self._count += len(rows)
-        self._fresh += len(rows)
-        while self._count - len(self._blocks[0]) >= self._kept:
-            self._count -= len(self._blocks.popleft())
+        if len(rows):
+            self._blocks.append(rows)
+            self.count += len(rows)
+            while self.count - self.gone - len(self._blocks[0]) >= self._kept:
+                self.gone += len(self._blocks.popleft())
 
     def cut(self, at: int) -> None:
         """Nothing later than an instant has been."""
-        before = self._count
         while self._blocks and self._blocks[-1][-1, 0] > at:
             last = self._blocks.pop()
-            self._count -= len(last)
-            rest = last[: np.searchsorted(last[:, 0], at, side="right")]
-            if len(rest):
-                self._blocks.append(rest)
-                self._count += len(rest)
-        self._fresh = max(0, self._fresh - (before - self._count))
+            self.count -= len(last)
+            self.add(last[: np.searchsorted(last[:, 0], at, side="right")])
+        self.told = min(self.told, self.count)
 
-    def take_fresh(self, most: int) -> tuple[Array, int]:
-        """What was not told, or the newest of it, and how many rows that leaves out."""
-        fresh, self._fresh = self._fresh, 0
-        rows = self.last(min(fresh, most))
-        return rows, fresh - len(rows)
-
-    def last(self, most: int) -> Array:
-        """The newest."""
-        blocks: list[Array] = []
-        count = 0
+    def until(self, at: int) -> int:
+        """How many since the begin are no later than an instant."""
+        count = self.count
         for block in reversed(self._blocks):
-            if count >= most:
+            if block[-1, 0] <= at:
                 break
-            blocks.insert(0, block)
-            count += len(block)
-        return np.concatenate([self._empty, *blocks])[max(0, count - most) :]
+            count -= len(block) - int(np.searchsorted(block[:, 0], at, side="right"))
+        return count
 
-    def between(self, begin: int, end: int) -> Array:
-        """Those of an interval."""
-        blocks = [block for block in self._blocks if block[-1, 0] >= begin and block[0, 0] <= end]
-        rows = np.concatenate([self._empty, *blocks])
-        return rows[(rows[:, 0] >= begin) & (rows[:, 0] <= end)]
+    def part(self, first: int, end: int) -> Array:
+        """Those with the numbers first .. end - 1, as far as they are kept."""
+        blocks: list[Array] = []
+        begin = self.count
+        for block in reversed(self._blocks):
+            if begin <= first:
+                break
+            begin -= len(block)
+            if begin < end:
+                blocks.append(block)
+        kept = np.concatenate([self._empty, *reversed(blocks)])
+        return kept[max(0, first - begin) : max(0, end - begin)]
 
     @property
     def begin(self) -> int | None:
         """The first instant that is kept; None: nothing is."""
         return int(self._blocks[0][0, 0]) if self._blocks else None
-
-
-class Octets:
-    """One direction of a line."""
-
-    def __init__(self) -> None:
-        """Nothing yet."""
-        self.count = 0
-        """Since the begin."""
-        self._kept: deque[tuple[int, int]] = deque(maxlen=OCTETS_KEPT)
-        self._told = 0
-
-    def add(self, octets: Iterable[tuple[int, int]]) -> None:
-        """Instants and values."""
-        before = self.count
-        for octet in octets:
-            self._kept.append(octet)
-            before += 1
-        self.count = before
-
-    def cut(self, at: int, count: int) -> None:
-        """Nothing later than an instant has been; count: of what was before."""
-        while self._kept and self._kept[-1][0] > at:
-            self._kept.pop()
-        self.count = count
-        self._told = min(self._told, count)
-
-    def take_fresh(self, whole: bool) -> tuple[str, int]:
-        """What was not told, or all that is kept, in hexadecimal; and the number of its first octet."""
-        wanted = len(self._kept) if whole else min(len(self._kept), self.count - self._told)
-        octets = bytes(value for _, value in list(self._kept)[len(self._kept) - wanted :])
-        self._told = self._told if whole else self.count
-        return octets.hex(), self.count - wanted
 
 
 @dataclass
@@ -152,15 +113,8 @@ class Totals:
         )
 
 
-@dataclass(frozen=True)
-class _Saved:
-    tx: int
-    rx: int
-    totals: Totals
-
-
 class History:
-    """Follows the timeline of a run that keeps edges and samples; see timeline.Follower."""
+    """Follows the timeline of a run that keeps edges and samples, the known future included; see timeline.Follower."""
 
     def __init__(self) -> None:
         """Nothing yet."""
@@ -168,41 +122,54 @@ class History:
         """Instant [ps], index in WIRES, level."""
         self.samples = Rows(SAMPLES_KEPT, 4, np.float64)
         """Instant [ps], channel, code, volts."""
-        self.tx, self.rx = Octets(), Octets()
-        """What the board sent, and what it was sent."""
+        self.tx, self.rx = Rows(OCTETS_KEPT, 2, np.int64), Rows(OCTETS_KEPT, 2, np.int64)
+        """What the board sent, and what it was sent: instant [ps], value."""
         self.totals = Totals()
         self.rewound: int | None = None
         """Since the last frame the run was taken back to that instant, and went on from it."""
-        self.latest: dict[int, tuple[float, int]] = {}
-        """Volts and code of each channel's newest sample."""
+        self._all = (self.edges, self.samples, self.tx, self.rx)
+        self._now_ps = self._until_ps = -1
+        """Where the run is, and until when all that passed is here: a replay brings nothing new."""
 
     def follow(self, run: Any, received: list[tuple[int, int, bool]]) -> None:
         """See timeline.Follower."""
         pins = _run.take_pin_edges(run)
         pins[:, 1] = _WIRE_OF_PIN[pins[:, 1]]
-        both = np.concatenate([run.take_edges(), pins[pins[:, 1] >= 0]])
-        self.edges.add(both[np.argsort(both[:, 0], kind="stable")])
-        samples = _run.take_samples(run)
-        self.samples.add(np.array(samples, np.float64).reshape(-1, 4))
-        for _, channel, code, volts in samples:
-            self.latest[channel] = (volts, code)
-        self.tx.add((at, value) for at, value, _ in received)
-        self.rx.add((at, value) for at, value, _ in run.take_sent())
+        edges = np.concatenate([run.take_edges(), pins[pins[:, 1] >= 0]])
+        samples = np.array(_run.take_samples(run), np.float64).reshape(-1, 4)
+        sent = run.take_sent()
+        passed = (edges[np.argsort(edges[:, 0], kind="stable")], samples, _octets(received), _octets(sent))
+        begin, self._now_ps = self._now_ps, int(run.now_ps)
+        if self._now_ps > self._until_ps:
+            for rows, new in zip(self._all, passed, strict=True):
+                if begin < self._until_ps:  # what came at that very instant comes again
+                    rows.cut(self._until_ps - 1)
+                    new = new[np.searchsorted(new[:, 0], self._until_ps) :]
+                rows.add(new)
+            self._until_ps = self._now_ps
         states, _ = run.take_states()
         if len(states):
             self.totals = self.totals.add(states)
 
+    def cut(self, at_ps: int) -> None:
+        """See timeline.Follower."""
+        for rows in self._all:
+            rows.cut(at_ps)
+        self._until_ps = min(self._until_ps, at_ps)
+
     def save(self) -> object:
         """See timeline.Follower."""
-        return _Saved(self.tx.count, self.rx.count, self.totals)
+        return self.totals
 
     def restore(self, saved: object, at_ps: int) -> None:
         """See timeline.Follower."""
-        assert isinstance(saved, _Saved)
-        self.edges.cut(at_ps)
-        self.samples.cut(at_ps)
-        self.tx.cut(at_ps, saved.tx)
-        self.rx.cut(at_ps, saved.rx)
-        self.totals = saved.totals
-        self.latest = {int(row[1]): (float(row[3]), int(row[2])) for row in self.samples.last(2 * CHANNELS)}
+        assert isinstance(saved, Totals)
+        self.totals = saved
+        self._now_ps = at_ps
+        for rows in self._all:
+            rows.told = min(rows.told, rows.until(at_ps))
         self.rewound = at_ps if self.rewound is None else min(self.rewound, at_ps)
+
+
+def _octets(octets: list[tuple[int, int, bool]]) -> Array:
+    return np.array([(at, value) for at, value, _ in octets], np.int64).reshape(-1, 2)

@@ -106,11 +106,9 @@ class Server:
         self._listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             self._listener.bind((ADDRESS, port))
-        except OSError as error:
+        except (OSError, OverflowError) as error:
             self._listener.close()
-            raise UsageError(
-                f"--port {port}: cannot listen on {ADDRESS}: {error.strerror}; choose another, or 0"
-            ) from error
+            raise UsageError(f"--port {port}: cannot listen on {ADDRESS}: {error}; choose another, or 0") from error
         self.port = int(self._listener.getsockname()[1])
         self.token = secrets.token_urlsafe(24)
         self._cookie = f"ins_view_{self.port}"

@@ -135,7 +135,8 @@ void bind_board(nb::class_<Run>& run)
         .def(
             "reset", [](Run& self, bool power_on) { mcs51_reset(self.cpu(), power_on); }, "power_on"_a)
         .def(
-            "set_motion", [](Run& self, const Motion& motion) { self.set_motion(motion.handle); }, "motion"_a);
+            "set_motion", [](Run& self, const Motion& motion, bool keep) { self.set_motion(motion.handle, keep); },
+            "motion"_a, "keep"_a = false);
 }
 
 } // namespace libins

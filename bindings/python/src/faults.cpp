@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace libins
 {
@@ -108,6 +109,19 @@ void Faults::add(const Fault& fault)
                     : fault.rate_hz > 0.0 ? fault_drawn(active.random, fault, std::max(fault.from, target_.sched->now))
                                           : fault.from;
     faults_.push_back(active);
+}
+
+void Faults::end_at(size_t place, emu_time_t at)
+{
+    if (place >= faults_.size())
+    {
+        throw std::invalid_argument("fault " + std::to_string(place) + ": there are " + std::to_string(faults_.size()));
+    }
+    Active& active = faults_[place];
+    const bool lasts = active.fault.lasts == 0; // else a reset ends by itself
+    active.begins = active.begins >= at ? EMU_TIME_MAX : active.begins;
+    active.ends = active.on && lasts ? std::min(active.ends, at) : active.ends;
+    active.fault.to = std::min(active.fault.to, at);
 }
 
 emu_time_t Faults::next() const
@@ -327,6 +341,18 @@ std::vector<std::pair<const char*, uint64_t>> Faults::hits() const
         hits.emplace_back(fault_kinds[static_cast<size_t>(active.fault.kind)], active.hits);
     }
     return hits;
+}
+
+std::vector<std::pair<emu_time_t, emu_time_t>> Faults::windows() const
+{
+    std::vector<std::pair<emu_time_t, emu_time_t>> windows;
+    for (const Active& active : faults_)
+    {
+        const bool instant = !in_conversion(active.fault.kind) && active.fault.rate_hz == 0.0 &&
+                             (active.fault.lasts != 0 || active.fault.kind >= FaultKind::iram_flip);
+        windows.emplace_back(active.fault.from, instant && active.hits != 0 ? active.fault.from : active.fault.to);
+    }
+    return windows;
 }
 
 } // namespace libins

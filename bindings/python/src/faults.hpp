@@ -85,6 +85,8 @@ class Faults
 
     /// Throws std::invalid_argument with key, value and remedy for a net or memory that there is not.
     void add(const Fault& fault);
+    /// As if the fault had been declared to end then, in the future. Throws std::invalid_argument.
+    void end_at(size_t place, emu_time_t at);
     /// The instant at which apply() has something to do; EMU_TIME_MAX: never.
     emu_time_t next() const;
     /// Begin and end what is due. Between runs of the board.
@@ -93,6 +95,8 @@ class Faults
     void outcome(unsigned channel, emu_time_t at, tlc2543_outcome_t* outcome);
     /// How often each has acted: begun, a conversion or volts changed, a bit flipped.
     std::vector<std::pair<const char*, uint64_t>> hits() const;
+    /// First and last instant at which it may act.
+    std::vector<std::pair<emu_time_t, emu_time_t>> windows() const;
     /// Definitions and states. After those of the board and the wires.
     void state(emu_state_t* io);
 

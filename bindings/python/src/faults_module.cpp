@@ -34,6 +34,17 @@ nb::list hits(Run& run)
     return list;
 }
 
+/// First and last instant at which each may act.
+nb::list windows(Run& run)
+{
+    nb::list list;
+    for (const auto& [from, to] : run.faults().windows())
+    {
+        list.append(nb::make_tuple(from, to));
+    }
+    return list;
+}
+
 } // namespace
 
 void bind_faults(nb::module_& module, nb::class_<Run>& run)
@@ -62,7 +73,11 @@ void bind_faults(nb::module_& module, nb::class_<Run>& run)
         .def_rw("seed", &Fault::seed);
     run.def(
            "add_fault", [](Run& self, const Fault& fault) { self.faults().add(fault); }, "fault"_a)
-        .def("fault_hits", hits);
+        .def("fault_hits", hits)
+        .def(
+            "end_fault", [](Run& self, size_t place, emu_time_t at_ps) { self.faults().end_at(place, at_ps); },
+            "place"_a, "at_ps"_a)
+        .def("fault_windows", windows);
 }
 
 } // namespace libins

@@ -55,7 +55,7 @@ void Navigator::tick(emu_time_t at)
     ins_nav_link_tick(&link, static_cast<uint64_t>(at / ms));
 }
 
-int Navigator::octet(uint8_t octet, emu_time_t at, const std::vector<Scan>& scans, const ins_motion_t* motion)
+int Navigator::octet(uint8_t octet, emu_time_t at, const Scans& scans, const ins_motion_t* motion)
 {
     int reply = -1;
     ins_nav_sample_t sample;
@@ -70,16 +70,15 @@ int Navigator::octet(uint8_t octet, emu_time_t at, const std::vector<Scan>& scan
 
 /// The scan a block came from: the one its sequence number says, else the newest with the same codes. Nothing if there is none: the
 /// block was changed on the way and its sum did not show it.
-std::optional<size_t> Navigator::origin_of(const ins_nav_sample_t& sample, const std::vector<Scan>& scans,
-                                           size_t count) const
+std::optional<size_t> Navigator::origin_of(const ins_nav_sample_t& sample, const Scans& scans, size_t count) const
 {
     const auto same = [&](size_t i) { return std::equal(scans[i].code.begin(), scans[i].code.end(), sample.code); };
     const size_t numbered = first_scan + sample.index;
-    if (started && config.seq != 0 && numbered < count && same(numbered))
+    if (started && config.seq != 0 && numbered >= scans.gone && numbered < count && same(numbered))
     {
         return numbered;
     }
-    const size_t oldest = std::max(last_scan, count > origin_window ? count - origin_window : 0);
+    const size_t oldest = std::max({last_scan, scans.gone, count > origin_window ? count - origin_window : 0});
     for (size_t i = count; i-- > oldest;)
     {
         if (same(i))
@@ -112,16 +111,16 @@ bool Navigator::solve(const ins_nav_sample_t& sample, double t, const ins_motion
     return ins_nav_solver_step(&solver, &sample, &scored.state) >= 0;
 }
 
-void Navigator::navigate(const ins_nav_sample_t& sample, emu_time_t at, const std::vector<Scan>& scans,
-                         const ins_motion_t* motion)
+void Navigator::navigate(const ins_nav_sample_t& sample, emu_time_t at, const Scans& scans, const ins_motion_t* motion)
 {
     // A board whose time is ahead has scans already that this host cannot know of.
     const size_t last = config.channels - 1u;
     const auto made = [=](const Scan& scan) { return scan.at[last] <= at; };
-    const auto count = static_cast<size_t>(std::partition_point(scans.begin(), scans.end(), made) - scans.begin());
+    const auto known = std::partition_point(scans.kept.begin(), scans.kept.end(), made) - scans.kept.begin();
+    const size_t count = scans.gone + static_cast<size_t>(known);
     const std::optional<size_t> origin = origin_of(sample, scans, count);
     corrupt_accepted += origin ? 0 : 1;
-    if (!origin && count == 0)
+    if (!origin && known == 0)
     {
         return;
     }

@@ -5,6 +5,7 @@
 #include "emu/time.h"
 #include "ins_nav/nav.h"
 #include "ins_truth/motion.h"
+#include "scans.hpp"
 #include "six_navigator.hpp"
 #include <array>
 #include <memory>
@@ -14,13 +15,6 @@
 
 namespace libins
 {
-
-/// X, Y, Z of one scan, or six accelerometers, each with the end of its own acquisition. The scan's instant is that of the first.
-struct Scan
-{
-    std::array<emu_time_t, INS_NAV_CHANNELS> at{};
-    std::array<uint16_t, INS_NAV_CHANNELS> code{};
-};
 
 /// A navigation state beside the truth at its own sample's instant.
 struct Scored
@@ -45,7 +39,7 @@ struct Navigator
     /// Time-outs are looked for.
     void tick(emu_time_t at);
     /// An octet came; scans and motion are the board's. \return the octet to send back; -1: none.
-    int octet(uint8_t octet, emu_time_t at, const std::vector<Scan>& scans, const ins_motion_t* motion);
+    int octet(uint8_t octet, emu_time_t at, const Scans& scans, const ins_motion_t* motion);
     std::vector<Scored> take_states() { return std::exchange(states, {}); }
 
     ins_nav_config_t config{};
@@ -60,11 +54,10 @@ struct Navigator
     std::vector<Scored> states;
 
   private:
-    void navigate(const ins_nav_sample_t& sample, emu_time_t at, const std::vector<Scan>& scans,
-                  const ins_motion_t* motion);
+    void navigate(const ins_nav_sample_t& sample, emu_time_t at, const Scans& scans, const ins_motion_t* motion);
     /// \return false: the sample could not be used.
     bool solve(const ins_nav_sample_t& sample, double t, const ins_motion_t* motion, Scored& scored);
-    std::optional<size_t> origin_of(const ins_nav_sample_t& sample, const std::vector<Scan>& scans, size_t count) const;
+    std::optional<size_t> origin_of(const ins_nav_sample_t& sample, const Scans& scans, size_t count) const;
 };
 
 } // namespace libins

@@ -42,7 +42,7 @@ void Run::open_sensors(ins_gyro_config_t gyro)
         low = -unlimited_v;
         high = unlimited_v;
     }
-    if (!ins_gyro_init(&gyro_, &gyro, motion_.get(), why.data(), why.size()) ||
+    if (!ins_gyro_init(&gyro_, &gyro, motion().get(), why.data(), why.size()) ||
         (config_.accels && !ins_accels_init(&accels_, &*config_.accels, config_.track.get(), why.data(), why.size())))
     {
         throw std::invalid_argument(why.data());
@@ -55,7 +55,7 @@ void Run::open_sensors(ins_gyro_config_t gyro)
 }
 
 Run::Run(const RunConfig& config, std::shared_ptr<ins_motion_t> motion, const ins_gyro_config_t& gyro)
-    : config_(config), motion_(std::move(motion))
+    : scans(config.scans_kept), config_(config), motion_(std::move(motion))
 {
     open_sensors(gyro);
     if (config_.nav)
@@ -148,8 +148,12 @@ bool Run::until(emu_time_t t)
         {
             faults_->apply();
         }
+        while (knobs_.next() <= sched_.now)
+        {
+            act(knobs_.take());
+        }
         const emu_time_t look = config_.nav ? std::min(t, sched_.now + look_most) : t;
-        const emu_time_t next = std::min(look, faults_->next());
+        const emu_time_t next = std::min({look, faults_->next(), knobs_.next()});
         const mcs51_stop_t stop = acq_board_run(board_.get(), next);
         halted_ = stop == MCS51_HALTED;
         if (config_.nav)
@@ -172,10 +176,70 @@ bool Run::until_octet(emu_time_t t)
     return reached;
 }
 
-void Run::set_motion(std::shared_ptr<ins_motion_t> motion)
+void Run::set_motion(std::shared_ptr<ins_motion_t> motion, bool keep)
 {
-    motion_ = std::move(motion);
-    gyro_.motion = motion_.get();
+    motion_.set_base(std::move(motion), keep);
+    gyro_.motion = motion_.get().get();
+}
+
+void Run::add_knob(const Knob& knob)
+{
+    const bool sensors = knob.kind != KnobKind::volts && knob.kind != KnobKind::release && knob.kind != KnobKind::send;
+    if (config_.accels && sensors)
+    {
+        throw std::invalid_argument("this board has no gyros: volts, release and send are possible");
+    }
+    if (knob.at <= sched_.now)
+    {
+        act(knob);
+    }
+    else
+    {
+        knobs_.add(knob);
+    }
+}
+
+void Run::act(const Knob& knob)
+{
+    const double at_s = static_cast<double>(knob.at) * 1e-12;
+    ins_gyro_config_t gyro = gyro_.config;
+    switch (knob.kind)
+    {
+    case KnobKind::rate:
+        motion_.turn(at_s, knob.values);
+        gyro_.motion = motion().get();
+        break;
+    case KnobKind::attitude:
+        motion_.tilt(at_s, static_cast<double>(knob.lasts) * 1e-12, knob.values);
+        gyro_.motion = motion().get();
+        break;
+    case KnobKind::volts:
+        set_volts(knob.channel, knob.values[0]);
+        break;
+    case KnobKind::release:
+        clear_volts(knob.channel);
+        break;
+    case KnobKind::bias:
+    case KnobKind::noise:
+        for (unsigned i = 0; i < INS_GYRO_CHANNELS; i++)
+        {
+            (knob.kind == KnobKind::bias ? gyro.channel[i].bias : gyro.channel[i].noise_density) = knob.values[i];
+        }
+        set_gyro(gyro);
+        break;
+    case KnobKind::send:
+        send(knob.octets);
+        break;
+    }
+}
+
+void Run::set_gyro(const ins_gyro_config_t& config)
+{
+    std::array<char, 256> why{};
+    if (!ins_gyro_init(&gyro_, &config, motion().get(), why.data(), why.size()))
+    {
+        throw std::invalid_argument(why.data());
+    }
 }
 
 /// \return whether the host's transmitter had room.
@@ -242,7 +306,7 @@ void Run::on_sample(void* ctx, unsigned channel, uint16_t code, double volts, em
     self.pending_channels_++;
     if (self.pending_channels_ == self.channels())
     {
-        self.scans.push_back(self.pending_);
+        self.scans.add(self.pending_);
         self.pending_channels_ = 0;
     }
 }
@@ -279,7 +343,7 @@ void Run::on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at)
     {
         return; // a UART hands no octet on without its stop bit; the end counts it
     }
-    if (const int reply = self.navigator_.octet(octet, at, self.scans, self.motion_.get()); reply >= 0)
+    if (const int reply = self.navigator_.octet(octet, at, self.scans, self.motion().get()); reply >= 0)
     {
         self.transmit(static_cast<uint8_t>(reply));
     }

@@ -13,11 +13,13 @@
 #include "ins_truth/accel.h"
 #include "ins_truth/front_end.h"
 #include "ins_truth/gyro.h"
+#include "knobs.hpp"
 #include "navigator.hpp"
 #include "observers.hpp"
 #include "octet.hpp"
 #include "program.hpp"
 #include "report.hpp"
+#include "scans.hpp"
 #include "signal.hpp"
 #include <array>
 #include <map>
@@ -65,8 +67,9 @@ struct RunConfig
     std::optional<ins_front_end_channel_t> front_end; ///< its rails are the sensors'
     std::optional<SixConfig> six_nav;                 ///< with nav: their navigator
     bool six = false;                                 ///< the board of acq_board_six_config()
-    bool listen = false;  ///< keep the octets that the host receives, also where the navigator takes them
-    bool outside = false; ///< what is beyond the host's wires is somebody else's, the transmitter too
+    bool listen = false;   ///< keep the octets that the host receives, also where the navigator takes them
+    size_t scans_kept = 0; ///< the newest that are there at any time; 0: all
+    bool outside = false;  ///< what is beyond the host's wires is somebody else's, the transmitter too
     bool seen =
         false; ///< keep the converter's samples and the edges of all pins, for take_samples() and take_pin_edges()
 };
@@ -115,8 +118,14 @@ class Run
     Faults& faults() { return *faults_; }
     /// Of a debugger; made when first asked for.
     Watcher& watcher() { return watcher_ ? *watcher_ : watcher_.emplace(board_.get(), *observers_); }
-    /// From this instant on.
-    void set_motion(std::shared_ptr<ins_motion_t> motion);
+    /// From this instant on; keep: with what was done by hand.
+    void set_motion(std::shared_ptr<ins_motion_t> motion, bool keep);
+    /// At knob.at, or now where that has passed. Throws std::invalid_argument with the reason.
+    void add_knob(const Knob& knob);
+    /// What the hand's knobs say now.
+    const std::array<double, 3>* hand_rate() const { return motion_.rate(); }
+    const std::map<unsigned, double>& held_volts() const { return volts_; }
+    const ins_gyro_config_t& gyro() const { return gyro_.config; }
     /// Octets from the outside; \return how many the transmitter took.
     size_t send(const std::string& octets);
 
@@ -146,9 +155,9 @@ class Run
     /// What the host's end was given to send, kept where config.seen and config.listen are on; `at` is when it was.
     std::vector<Octet> take_sent() { return std::exchange(sent_, {}); }
 
-    std::vector<Scan> scans;
+    Scans scans;
     std::vector<Report> reports;
-    const std::shared_ptr<ins_motion_t>& motion() const { return motion_; }
+    const std::shared_ptr<ins_motion_t>& motion() const { return motion_.get(); }
     uint64_t corrupt_accepted() const { return navigator_.corrupt_accepted; }
     ins_nav_counts_t counts() const { return navigator_.link.counts; }
     const emu_serial_end_t& host_end() const { return end_; }
@@ -170,6 +179,8 @@ class Run
     static void on_sample(void* ctx, unsigned channel, uint16_t code, double volts, emu_time_t at);
     static void on_outcome(void* ctx, unsigned channel, emu_time_t at, tlc2543_outcome_t* outcome);
     bool transmit(uint8_t octet);
+    void act(const Knob& knob);
+    void set_gyro(const ins_gyro_config_t& config);
     static void on_octet(void* ctx, uint8_t octet, bool framing_ok, emu_time_t at);
     static void on_edge(void* ctx, bool level, emu_time_t at);
     static void on_pin_edge(void* ctx, bool level, emu_time_t at);
@@ -184,7 +195,7 @@ class Run
     };
 
     RunConfig config_;
-    std::shared_ptr<ins_motion_t> motion_;
+    HandMotion motion_;
     ins_gyro_t gyro_{};
     ins_accels_t accels_{};
     FrontEnd front_end_;
@@ -200,6 +211,7 @@ class Run
     std::vector<emu_serial_cut_t> cuts_;
     emu_serial_end_t end_{};
     std::optional<Faults> faults_;
+    Knobs knobs_;
     Navigator navigator_;
     Scan pending_{};
     unsigned pending_channels_ = 0;

@@ -102,7 +102,7 @@ nb::ndarray<nb::numpy, double, nb::ndim<2>> scans(const Run& run)
 {
     std::vector<double> values;
     const unsigned channels = run.channels();
-    for (const Scan& scan : run.scans)
+    for (const Scan& scan : run.scans.kept)
     {
         for (unsigned i = 0; i < channels; i++)
         {
@@ -110,7 +110,7 @@ nb::ndarray<nb::numpy, double, nb::ndim<2>> scans(const Run& run)
         }
         values.insert(values.end(), scan.code.begin(), scan.code.begin() + channels);
     }
-    return libins::table(run.scans.size(), 2 * channels, std::move(values));
+    return libins::table(run.scans.kept.size(), 2 * channels, std::move(values));
 }
 
 nb::dict counters(const Run& run)
@@ -252,6 +252,7 @@ NB_MODULE(_run, m)
         .def_rw("six", &RunConfig::six)
         .def_rw("listen", &RunConfig::listen)
         .def_rw("seen", &RunConfig::seen)
+        .def_rw("scans_kept", &RunConfig::scans_kept)
         .def(
             "set_front_end",
             [](RunConfig& self, double sensor_hz, double sensor_damping, double amplifier_hz, double slew_v_s,
@@ -275,6 +276,7 @@ NB_MODULE(_run, m)
     nb::class_<Run> run(m, "Run", "See run.hpp.");
     libins::bind_board(run);
     libins::bind_faults(m, run);
+    libins::bind_knobs(m, run);
     libins::bind_debug(m, run);
     run.def(
            "__init__",
@@ -302,7 +304,7 @@ NB_MODULE(_run, m)
             [](Run& self, const nb::bytes& octets) { return self.send(std::string(octets.c_str(), octets.size())); },
             "octets"_a)
         .def("level", &Run::level, "wire"_a)
-        .def("scans", scans)
+        .def("scans", scans, "Those that are kept.")
         .def("counters", counters)
         .def("reports", [](const Run& self) { return libins::reports_list(self.reports); });
     libins::bind_net(m);

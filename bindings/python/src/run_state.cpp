@@ -13,7 +13,7 @@ namespace libins
 namespace
 {
 
-constexpr uint32_t version = 3;
+constexpr uint32_t version = 4;
 constexpr size_t header_octets = 24;
 
 uint64_t fnv1a(const char* octets, size_t size)
@@ -169,11 +169,24 @@ void Run::walk(emu_state_t* io)
     emu_state_u32(io, &channels);
     emu_state_check(io, channels < this->channels());
     pending_channels_ = io->bad ? pending_channels_ : channels;
-    list(io, scans);
+    list(io, scans.kept);
+    size(io, scans.gone);
     list(io, reports);
     emu_state_u64(io, &navigator_.corrupt_accepted);
     emu_state_bool(io, &halted_);
     map(io, volts_);
+    knobs_.state(io);
+    motion_.state(io);
+    ins_gyro_config_t gyro = gyro_.config;
+    for (ins_gyro_channel_t& channel : gyro.channel)
+    {
+        emu_state_f64(io, &channel.bias);
+        emu_state_f64(io, &channel.noise_density);
+    }
+    if (emu_state_loading(io))
+    {
+        emu_state_check(io, ins_gyro_init(&gyro_, &gyro, motion().get(), nullptr, 0));
+    }
     front_end_.state(io);
 }
 

@@ -88,8 +88,18 @@ static void coning_attitude(const ins_motion_coning_t* coning, double amplitude,
     q_nb[3] = s * sw;
 }
 
-void ins_motion_attitude(const ins_motion_t* self, double t, double q_nb[4])
+const ins_motion_t* ins_motion_at(const ins_motion_t* self, double t)
 {
+    while (self->kind == INS_MOTION_ONWARD && t < self->of.onward.from_s)
+    {
+        self = self->of.onward.base;
+    }
+    return self;
+}
+
+void ins_motion_attitude(const ins_motion_t* motion, double t, double q_nb[4])
+{
+    const ins_motion_t* const self = ins_motion_at(motion, t);
     double angle[3];
     double speed[3];
     if (!known(t))
@@ -109,6 +119,9 @@ void ins_motion_attitude(const ins_motion_t* self, double t, double q_nb[4])
     case INS_MOTION_TABLE:
         angles_at(self, t, angle, speed);
         ins_rotation_of_angles(angle, q_nb);
+        break;
+    case INS_MOTION_ONWARD:
+        turn_attitude(&self->of.onward.turn, t - self->of.onward.from_s, q_nb);
         break;
     }
 }
@@ -144,8 +157,9 @@ static void coning_rate(const ins_motion_coning_t* coning, ins_ramp_t ramp, doub
     w_ib_b[2] = a_speed * sw + 2.0 * w * s * c * cw;
 }
 
-void ins_motion_rate(const ins_motion_t* self, double t, double w_ib_b[3])
+void ins_motion_rate(const ins_motion_t* motion, double t, double w_ib_b[3])
 {
+    const ins_motion_t* const self = ins_motion_at(motion, t);
     double angle[3];
     double speed[3];
     if (!known(t))
@@ -169,14 +183,31 @@ void ins_motion_rate(const ins_motion_t* self, double t, double w_ib_b[3])
         angles_at(self, t, angle, speed);
         ins_rotation_rate(angle, speed, w_ib_b);
         break;
+    case INS_MOTION_ONWARD:
+        for (int i = 0; i < 3; i++)
+        {
+            w_ib_b[i] = self->of.onward.turn.w_ib_b[i];
+        }
+        break;
     }
 }
 
-double ins_motion_next_break(const ins_motion_t* self, double t)
+static double base_next_break(const ins_motion_t* self, double t)
 {
     double next = self->kind == INS_MOTION_TABLE ? ins_spline_next_knot(&self->of.table, t) : (double)INFINITY;
     next = self->ramp_s > t && self->ramp_s < next ? self->ramp_s : next;
     return self->ramp_s > 0.0 && 0.0 > t && 0.0 < next ? 0.0 : next;
+}
+
+double ins_motion_next_break(const ins_motion_t* self, double t)
+{
+    double next = (double)INFINITY;
+    for (; self->kind == INS_MOTION_ONWARD && t < self->of.onward.from_s; self = self->of.onward.base)
+    {
+        next = self->of.onward.from_s;
+    }
+    const double inner = self->kind == INS_MOTION_ONWARD ? next : base_next_break(self, t);
+    return inner < next ? inner : next;
 }
 
 static void rate_at(const void* self, double t, double value[])

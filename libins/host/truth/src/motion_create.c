@@ -37,20 +37,19 @@ static void set_panel(ins_motion_t* self, double bandwidth_hz, double excursion)
     self->panel_s = hz > 0.0 ? 0.5 / hz : (double)INFINITY;
 }
 
+static bool check_rate(const double w_ib_b[3], const ins_why_t* why)
+{
+    return ins_why_range(why, "", "w_ib_b[0]", w_ib_b[0], -RATE_MAX, RATE_MAX) &&
+           ins_why_range(why, "", "w_ib_b[1]", w_ib_b[1], -RATE_MAX, RATE_MAX) &&
+           ins_why_range(why, "", "w_ib_b[2]", w_ib_b[2], -RATE_MAX, RATE_MAX);
+}
+
 ins_motion_t* ins_motion_create_rate(const double w_ib_b[3], const double q_nb0[4], double ramp_s, char* text,
                                      size_t size)
 {
     const ins_why_t why = {text, size};
-    static const char* const name[3] = {"w_ib_b[0]", "w_ib_b[1]", "w_ib_b[2]"};
     const double length = sqrt(q_nb0[0] * q_nb0[0] + q_nb0[1] * q_nb0[1] + q_nb0[2] * q_nb0[2] + q_nb0[3] * q_nb0[3]);
-    for (int i = 0; i < 3; i++)
-    {
-        if (!ins_why_range(&why, "", name[i], w_ib_b[i], -RATE_MAX, RATE_MAX))
-        {
-            return NULL;
-        }
-    }
-    if (!ins_why_range(&why, "", "the length of q_nb0", length, 1.0 - 1e-6, 1.0 + 1e-6))
+    if (!check_rate(w_ib_b, &why) || !ins_why_range(&why, "", "the length of q_nb0", length, 1.0 - 1e-6, 1.0 + 1e-6))
     {
         return NULL;
     }
@@ -133,6 +132,31 @@ ins_motion_t* ins_motion_create_table(size_t rows, const double* t, const double
     return self;
 }
 
+ins_motion_t* ins_motion_create_onward(const ins_motion_t* base, double from_s, const double w_ib_b[3], char* text,
+                                       size_t size)
+{
+    const ins_why_t why = {text, size};
+    if (!ins_why_range(&why, "", "from_s", from_s, -INS_MOTION_TIME_MAX_S, INS_MOTION_TIME_MAX_S) ||
+        !check_rate(w_ib_b, &why))
+    {
+        return NULL;
+    }
+    ins_motion_t* const self = create(INS_MOTION_ONWARD, 0.0, &why);
+    if (self != NULL)
+    {
+        ins_motion_onward_t* const onward = &self->of.onward;
+        onward->base = base;
+        onward->from_s = from_s;
+        for (int i = 0; i < 3; i++)
+        {
+            onward->turn.w_ib_b[i] = w_ib_b[i];
+        }
+        ins_motion_attitude(base, from_s, onward->turn.q_nb0);
+        self->panel_s = base->kind == INS_MOTION_RATE ? (double)INFINITY : base->panel_s;
+    }
+    return self;
+}
+
 void ins_motion_destroy(ins_motion_t* self)
 {
     if (self != NULL && self->kind == INS_MOTION_TABLE)
@@ -144,7 +168,7 @@ void ins_motion_destroy(ins_motion_t* self)
 
 void ins_motion_span(const ins_motion_t* self, double* first, double* last)
 {
-    const bool table = self->kind == INS_MOTION_TABLE;
-    *first = table ? self->of.table.t[0] : -(double)INFINITY;
-    *last = table ? self->of.table.t[self->of.table.rows - 1] : (double)INFINITY;
+    *last = self->kind == INS_MOTION_TABLE ? self->of.table.t[self->of.table.rows - 1] : (double)INFINITY;
+    self = ins_motion_at(self, -(double)INFINITY);
+    *first = self->kind == INS_MOTION_TABLE ? self->of.table.t[0] : -(double)INFINITY;
 }

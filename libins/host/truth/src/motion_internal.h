@@ -13,7 +13,8 @@ typedef enum
     INS_MOTION_RATE,
     INS_MOTION_SINES,
     INS_MOTION_CONING,
-    INS_MOTION_TABLE
+    INS_MOTION_TABLE,
+    INS_MOTION_ONWARD
 } ins_motion_kind_t;
 
 typedef struct
@@ -28,6 +29,13 @@ typedef struct
     double frequency_hz;
 } ins_motion_coning_t;
 
+typedef struct
+{
+    const ins_motion_t* base;
+    double from_s;
+    ins_motion_turn_t turn; ///< from there on
+} ins_motion_onward_t;
+
 struct ins_motion_t
 {
     ins_motion_kind_t kind;
@@ -39,9 +47,12 @@ struct ins_motion_t
         ins_motion_sine_t sine[3]; ///< yaw, pitch, roll
         ins_motion_coning_t coning;
         ins_spline_t table;
+        ins_motion_onward_t onward;
     } of;
 };
 
+/// What the motion is at t: itself, or what an onward motion goes on from.
+const ins_motion_t* ins_motion_at(const ins_motion_t* self, double t);
 /// The first instant after t where some derivative of the motion jumps.
 double ins_motion_next_break(const ins_motion_t* self, double t);
 

@@ -59,9 +59,14 @@ INS_TRUTH_API ins_motion_t* ins_motion_create_coning(double half_angle, double f
 INS_TRUTH_API ins_motion_t* ins_motion_create_table(size_t rows, const double* t, const double* yaw,
                                                     const double* pitch, const double* roll, double ramp_s, char* why,
                                                     size_t why_size);
+/// Another motion until from_s, and from then on the constant body rate w_ib_b [rad/s] from the attitude there: what is
+/// done to a board by hand. The base, which may be such a motion itself, must outlive it.
+INS_TRUTH_API ins_motion_t* ins_motion_create_onward(const ins_motion_t* base, double from_s, const double w_ib_b[3],
+                                                     char* why, size_t why_size);
 INS_TRUTH_API void ins_motion_destroy(ins_motion_t* self); ///< NULL is allowed.
 
-/// The time the motion is known for [s]: the rows of a table, -infinity to infinity for the others.
+/// The time the motion is known for [s]: the rows of a table, -infinity to infinity for the others; an onward motion
+/// begins with its base.
 INS_TRUTH_API void ins_motion_span(const ins_motion_t* self, double* first, double* last);
 
 /// \param[out] q_nb  [4] scalar first.
