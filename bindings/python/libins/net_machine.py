@@ -43,8 +43,14 @@ class NetMachine:
 
     scan_columns: Sequence[str] = _run.SCAN_COLUMNS
 
-    def __init__(self, scenario: NetScenario, seed: int, outside: Collection[str] = ()) -> None:
-        """At time 0. outside: hosts that somebody outside plays. Raises UsageError, CrashError."""
+    def __init__(
+        self, scenario: NetScenario, seed: int, outside: Collection[str] = (), keep_states: bool = True
+    ) -> None:
+        """At time 0. outside: hosts that somebody outside plays. keep_states: for measured().
+
+        Raises UsageError, CrashError.
+        """
+        self._keep_states = keep_states
         self.scenario = scenario
         self.boards = list(scenario.programs)
         self._tables = scenario.tables
@@ -139,6 +145,11 @@ class NetMachine:
     # See Machine
 
     @property
+    def track(self) -> Any:
+        """Where the GPS-enabled IMUs go; None: there are none."""
+        return self._track
+
+    @property
     def subject(self) -> "NetMachine":
         """See Machine."""
         return self
@@ -169,7 +180,8 @@ class NetMachine:
         for host, kept in self._states.items():
             take = self.net.take_states if self._columns(host) is _run.STATE_COLUMNS else self.net.take_solutions
             states, raw = take(host)
-            kept.append(states)
+            if self._keep_states:
+                kept.append(states)
             first = first or (states, raw)
         return first or (np.empty((0, 0)), [])
 

@@ -61,10 +61,15 @@ def euler(q: Any) -> tuple[float, float, float]:
 
 
 def distance_m(latitude: float, longitude: float, llh: Any) -> float:
-    """Horizontal, of two places near each other: along meridian and parallel of the second."""
+    """Horizontal, of two places near each other."""
+    return math.hypot(*away_m(latitude, longitude, llh))
+
+
+def away_m(latitude: float, longitude: float, llh: Any) -> tuple[float, float]:
+    """How far north and east a place is of another near it: along meridian and parallel of that."""
     squared = FLATTENING * (2 - FLATTENING)
     w = math.sqrt(1 - squared * math.sin(llh[0]) ** 2)
     meridian, normal = SEMI_MAJOR_M * (1 - squared) / w**3, SEMI_MAJOR_M / w
     north = (latitude - llh[0]) * (meridian + llh[2])
     east = wrapped(longitude - llh[1]) * (normal + llh[2]) * math.cos(llh[0])
-    return math.hypot(north, east)
+    return north, east

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from libins import debug_views, snapshot, view_parts
+from libins import debug_views, faults, snapshot, view_parts
 from libins.board_uart import Octet
 from libins.breakpoints import Stop
 from libins.debugger import Debugger
@@ -15,7 +15,8 @@ from libins.errors import UsageError
 from libins.machine import COLUMNS
 from libins.places import MEMORIES
 from libins.tables import is_image
-from libins.view_hand import LINE, Hand, fault_forms
+from libins.view_forms import fault_forms
+from libins.view_hand import LINE, Hand
 from libins.view_history import LINE_PINS, OCTETS_KEPT, WIRES, History, Rows
 from libins.view_session import Asked, Json, Move
 
@@ -108,7 +109,7 @@ class BoardEngine:
             "lines": [LINE],
             "bauds": {LINE: s.tables.link.baud},
             "knobs": self.hand.knobs(),
-            "faults": fault_forms(),
+            "faults": fault_forms(faults.KINDS, ("to_board", "to_host")),
             "files": self._files(),
             "functions": [f.name for f in self.d.table.functions] if self.d.table else [],
             "registers": ["pc", *debug_views.NAMES],

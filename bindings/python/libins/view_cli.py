@@ -3,12 +3,15 @@
 import argparse
 import threading
 import webbrowser
+import zipfile
 from pathlib import Path
 
 from libins import scenario
 from libins.debugger import open_scenario
 from libins.errors import UsageError
+from libins.net_scenario import NetScenario
 from libins.view_board import BoardEngine
+from libins.view_net import NetEngine
 from libins.view_session import SPEED_MAX, SPEED_MIN, Engine
 
 
@@ -52,6 +55,10 @@ def run(parsed: argparse.Namespace) -> int:
 
 def _engine(parsed: argparse.Namespace) -> Engine:
     settings = dict(map(scenario.setting, parsed.set))
+    if not zipfile.is_zipfile(parsed.scenario):
+        loaded = scenario.load(scenario.find(parsed.scenario), parsed.firmware, settings)
+        if isinstance(loaded, NetScenario):
+            return NetEngine(loaded)
     debugger = open_scenario(parsed.scenario, parsed.firmware, settings, not parsed.no_navigator, seen=True)
     return BoardEngine(debugger, parsed.source)
 

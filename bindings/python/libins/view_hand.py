@@ -7,7 +7,7 @@ Each deed is an input of the timeline, so the way back repeats it, and a table o
 import copy
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -30,9 +30,6 @@ AXES = "xyz"
 LINE = "uart"
 """The host's."""
 EULER = ("roll", "pitch", "yaw")
-UNITS = {"s": "s", "hz": "Hz", "ppm": "ppm", "lsb": "LSB", "volts": "V", "ppm_s": "ppm/s"}
-NOT_ASKED = ("kind", "on", "station")
-"""Keys of a fault that no form asks for."""
 
 
 @dataclass(frozen=True)
@@ -165,16 +162,13 @@ class Hand:
     # The line
 
     def _send(self, asked: Asked) -> Json:
-        word = "hex" if asked.has("hex") else "text"
         if asked.text("line", LINE) != LINE:
             raise UsageError(f"uart_send: line: found {asked.text('line')!r}, but this board's only line is {LINE!r}")
-        table = {"at_s": instant_before(self._now_ps), word: asked.text(word)}
-        document = Document(Path("uart_send"), {"send": [table]})
-        sent = document.parse(knobs.Send, table, ("send", "0"))
-        knobs.check(document, [], [sent], self._gyros)
-        count, room = len(sent.octets()), int(self._d.run.send_room)
-        if count > room:
-            raise UsageError(f"uart_send: there is room for {room} of {count} octets; let the board run first")
+        octets, room = asked.octets(), int(self._d.run.send_room)
+        if len(octets) > room:
+            raise UsageError(f"uart_send: there is room for {room} of {len(octets)} octets; let the board run first")
+        sent = knobs.Send(instant_before(self._now_ps), hex=octets.hex())
+        table = {"at_s": sent.at_s, "hex": sent.hex}
         made = knobs.built(sent)
         self._do(Deed("send", table, lambda run: run.add_knob(made)))
         return {}
@@ -265,30 +259,6 @@ class Hand:
 
     def _name(self) -> str:
         return f"{self._d.scenario.path.stem}_done.toml"
-
-
-def fault_forms() -> Json:
-    """Kinds of faults of this board with their keys, for the hello."""
-    known = {each.name: each for each in fields(Fault)}
-
-    def key(name: str, must: set[str]) -> Json:
-        limits = known[name].metadata
-        kind = str(known[name].type)
-        shown: Json = {"name": name, "required": name in must, "type": "text" if "str" in kind else "number"}
-        unit = next((unit for end, unit in UNITS.items() if name == end or name.endswith(f"_{end}")), None)
-        shown |= {"unit": unit} if unit else {}
-        shown |= {"min": limits["minimum"]} if "minimum" in limits else {}
-        shown |= {"min": limits["above"]} if "above" in limits else {}
-        shown |= {"max": limits["maximum"]} if "maximum" in limits else {}
-        shown |= {"step": 1} if "int" in kind else {}
-        choices = ["to_board", "to_host"] if name == "line" else limits.get("choices")
-        return shown | ({"choices": list(choices)} if choices else {})
-
-    order = [name for name in known if name not in NOT_ASKED]
-    return {
-        kind: {"keys": [key(name, must) for name in order if name in may | must]}
-        for kind, (may, must) in faults.KINDS.items()
-    }
 
 
 def _with(values: Any, place: int, value: float) -> list[float]:

@@ -27,6 +27,8 @@ ACHIEVED_S = 1.0
 """Over which the achieved speed is measured."""
 BACK = ("step_back", "step_over_back", "run_back", "to")
 """Moves of which a page sees the end only."""
+OCTETS_MAX = 4096
+"""Of one command."""
 SPEED_MIN, SPEED_MAX = 1e-4, 1e4
 
 
@@ -71,6 +73,19 @@ class Asked:
         if not isinstance(value, list) or len(value) > most or not all(isinstance(each, str) for each in value):
             raise self._refused(name, value, f"a list of at most {most} strings")
         return value
+
+    def octets(self) -> bytes:
+        """Of `hex` or `text`."""
+        if not self.has("hex"):
+            found = self.text("text").encode()
+        else:
+            try:
+                found = bytes.fromhex(self.text("hex"))
+            except ValueError as error:
+                raise self._refused("hex", self.text("hex"), f"two digits an octet ({error})") from error
+        if not 0 < len(found) <= OCTETS_MAX:
+            raise UsageError(f"{self.name}: found {len(found)} octets, but 1 to {OCTETS_MAX} are needed")
+        return found
 
     def _refused(self, name: str, found: object, needed: str) -> UsageError:
         place = f"{self.name}: {name}" if hasattr(self, "name") else name
