@@ -113,6 +113,7 @@ def parser() -> argparse.ArgumentParser:
         "--wait", action="store_true", help="with --serial: power the board when somebody opens the other end"
     )
     dds_options.options(r)
+    dds_options.decimation(r)
     _program_options(r)
 
     c = commands.add_parser(
@@ -140,6 +141,7 @@ def parser() -> argparse.ArgumentParser:
     p = commands.add_parser("replay", help="run a recorded drive through a filter: docs/replay.md")
     replay_cli.options(p)
     dds_options.options(p)
+    dds_options.decimation(p)
 
     commands.add_parser("nav", help="start ins-navd; every option is its own (ins nav --help)", add_help=False)
     commands.add_parser("gpsdr", help="start ins-gpsdr; every option is its own (ins gpsdr --help)", add_help=False)

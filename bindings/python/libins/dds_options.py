@@ -16,6 +16,13 @@ def options(command: argparse.ArgumentParser, topic: bool = True) -> None:
     command.add_argument("--domain", type=int, default=0, metavar="N", help=f"DDS domain id, 0..{DOMAIN_MAX} (0)")
     if topic:
         command.add_argument("--topic", default=None, metavar="T", help="DDS topic name")
+        command.add_argument(
+            "--qos",
+            action="append",
+            default=[],
+            metavar="TOPIC=PROFILE",
+            help="for example nav_state=sensor_data; profiles: default, sensor_data, latched, reliable (docs/dds.md)",
+        )
     network = command.add_mutually_exclusive_group()
     network.add_argument(
         "--dds-config",
@@ -53,8 +60,24 @@ def _security(given: argparse.Namespace) -> str | None:
     return None if given.security is None else str(given.security)
 
 
-def open_dds(given: argparse.Namespace, publishes: bool, exclusive: bool = False, kind: str = "state") -> Any:
-    """A DDS handle from the command line's options, for one kind of messages. Raises UsageError."""
+def decimation(command: argparse.ArgumentParser) -> None:
+    """What publishers of states take besides."""
+    command.add_argument(
+        "--decimate", type=int, default=0, metavar="N", help="one state in N on libins/nav_state_decimated too"
+    )
+
+
+def open_dds(
+    given: argparse.Namespace,
+    publishes: bool,
+    exclusive: bool = False,
+    kind: str = "state",
+    also: tuple[str, ...] = (),
+) -> Any:
+    """A DDS handle from the command line's options, for one kind of messages, and more. Raises UsageError."""
+    decimate = given.decimate if publishes else 0
+    if not 0 <= decimate <= 10**6:
+        raise UsageError(f"--decimate {decimate}: must be 1 to 1000000")
     _dds, network = _module(given)
     try:
         topic = given.topic or _dds.TOPICS[kind]
@@ -65,6 +88,9 @@ def open_dds(given: argparse.Namespace, publishes: bool, exclusive: bool = False
             exclusive=exclusive,
             security=_security(given),
             kind=kind,
+            also=list(also),
+            qos=given.qos,
+            decimate=decimate,
             **network,
         )
     except RuntimeError as error:

@@ -63,6 +63,8 @@ class Run:
     """One pass."""
 
     states: Array
+    covariances: Array
+    """Of the states, (N, 45): the upper triangle of attitude, velocity and position; 0: not known."""
     checks: Array
     smoothed: Array | None
     counts: dict[str, int]
@@ -286,7 +288,8 @@ def one_pass(
             progress(min(1.0, (replay.time_s - given.t[0]) / (given.t[-1] - given.t[0])))
         how = f"{start.t:.2f} s: {start.how}"
         smoothed = filter_.smooth() if smooth else None
-        parts.append(Run(replay.states, replay.checks, smoothed, filter_.counts(), (how,), scale_notes(filter_)))
+        told = scale_notes(filter_)
+        parts.append(Run(replay.states, replay.covariances, replay.checks, smoothed, filter_.counts(), (how,), told))
     if not parts:
         raise problem or UsageError(f"{drive.gnss.path}: no {SEGMENT_MIN_S:g} s of the IMU without a gap")
     counts: dict[str, int] = {}
@@ -295,6 +298,7 @@ def one_pass(
             counts[what] = counts.get(what, 0) + count
     return Run(
         np.vstack([part.states for part in parts]),
+        np.vstack([part.covariances for part in parts]),
         np.vstack([part.checks for part in parts]),
         np.vstack([part.smoothed for part in parts if part.smoothed is not None]) if smooth else None,
         counts,

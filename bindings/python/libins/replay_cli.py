@@ -2,8 +2,6 @@
 
 import argparse
 import json
-import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,7 +9,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-from libins import replay_live
+from libins import replay_live, replay_publish
 from libins.errors import UsageError
 from libins.schema import Document
 from libins.whole_file import write
@@ -36,10 +34,17 @@ def options(parser: argparse.ArgumentParser) -> None:
     }
     for name, text in helps.items():
         parser.add_argument(f"--{name}", type=Path, metavar=f"F.{name}", help=text)
-    parser.add_argument("--dds", action="store_true", help="publish the solution as NavState, paced by --speed")
     parser.add_argument(
-        "--speed", type=float, default=1.0, metavar="X", help="with --dds and --live: recorded seconds a second (1)"
+        "--dds", action="store_true", help="publish states, innovations, status and raw IMU samples, paced by --speed"
     )
+    parser.add_argument(
+        "--ros", nargs="?", const="/", metavar="NAMESPACE",
+        help="publish the states as ROS 2 topics, on ROS_DOMAIN_ID, else on --domain",
+    )  # fmt: skip
+    parser.add_argument(
+        "--speed", type=float, default=1.0, metavar="X",
+        help="with --dds, --ros and --live: recorded seconds a second (1)",
+    )  # fmt: skip
     replay_live.options(parser)
 
 
@@ -56,8 +61,7 @@ def run(args: argparse.Namespace) -> int:
         page = _page()
     if not args.speed > 0.0:
         raise UsageError(f"--speed {args.speed}: a number above 0 is needed")
-    handle = _dds(args) if args.dds else None
-    try:
+    with replay_publish.outlets(args) as outlets:
         drive = replay.read(config, args.config.parent)
         with Progress(
             TextColumn("{task.description}"), BarColumn(), TextColumn("{task.percentage:3.0f} %"),
@@ -81,11 +85,7 @@ def run(args: argparse.Namespace) -> int:
                 write(path, makers[name]())
         if str(places["json"]) != "-":
             print(replay_score.text(result))
-        if handle is not None:
-            _publish(handle, solution.runs[0], args.config.stem, args.speed, drive.epoch_s, config.leap_s)
-    finally:
-        if handle is not None:
-            handle.close()
+        outlets.publish(config, drive, solution.runs[0], args.config.stem, args.speed)
     return 0
 
 
@@ -103,31 +103,3 @@ def _page() -> Any:
     except ImportError as error:
         raise UsageError(f"--html needs {error.name}: pip install 'libins[report]'") from error
     return replay_page
-
-
-def _dds(args: argparse.Namespace) -> Any:
-    from libins.dds_options import open_dds
-
-    return open_dds(args, publishes=True)
-
-
-def _publish(handle: Any, run_: Any, source: str, speed: float, epoch_s: float, leap_s: float) -> None:
-    """Each state at its time."""
-    from libins import _dds
-    from libins.replay import STATE
-
-    states = run_.states
-    begin = time.monotonic()
-    for index, state in enumerate(states.tolist()):
-        wait = begin + (state[0] - states[0, 0]) / speed - time.monotonic()
-        if wait > 0.0:
-            time.sleep(wait)
-        instant = _dds.Navigation(
-            round((epoch_s + state[0] - leap_s) * 1e9),
-            "gnss",
-            q_nb=state[STATE["q_w"] : STATE["q_z"] + 1],
-            v_n=state[STATE["v_n_m_s"] : STATE["v_d_m_s"] + 1],
-            llh=state[STATE["latitude_rad"] : STATE["height_m"] + 1],
-        )
-        handle.publish_navigation(instant, index, state[0], source, time.time_ns())
-    print(f"dds       {len(states)} published", file=sys.stderr)

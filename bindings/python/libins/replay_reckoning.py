@@ -67,7 +67,8 @@ def one_pass(config: Config, drive: Drive, spans: Sequence[tuple[float, float]],
     states = replay.states
     if not len(states):
         raise UsageError(f"{drive.gnss.path}: no fix came while the wheels of {drive.wheels.path} were recorded")
-    return Run(states, replay.checks, None, filter_.counts(), (f"{states[0, 0]:.2f} s: at the first fix",))
+    how = f"{states[0, 0]:.2f} s: at the first fix"
+    return Run(states, replay.covariances, replay.checks, None, filter_.counts(), (how,))
 
 
 def solve(config: Config, drive: Drive, progress: Progress) -> Solution:

@@ -12,6 +12,7 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -20,72 +21,45 @@
 namespace nb = nanobind;
 using namespace nb::literals;
 
-namespace
+Handle::Handle(uint32_t domain, const std::string& topic, const OptionalText& xml, bool publishes, bool exclusive,
+               const OptionalText& security, const std::string& kind, const OptionalText& interface,
+               const OptionalText& peers, const std::vector<std::string>& also, const std::vector<std::string>& qos,
+               uint32_t decimate)
 {
-
-const std::array<const char*, INS_DDS_KINDS> kinds = {"state",       "solution", "status",
-                                                      "innovations", "raw_imu",  "state_decimated"};
-
-#define TEXT(name, value, text) text,
-const std::array<const char*, 3> clocks = {INS_NAVIGATION_CLOCK_LIST(TEXT)};
-#undef TEXT
-
-template <size_t n> uint32_t number(const std::array<const char*, n>& names, const std::string& name)
-{
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
+    const uint32_t waiting = 256; // samples, for a reader in Python
+    const Security files(security);
+    ins_dds_config_t cfg;
+    ins_dds_config_default(&cfg);
+    cfg.domain = domain;
+    cfg.topic[INS_DDS_STATE].name = nullptr;
+    for (const std::string& name : also)
     {
-        throw std::invalid_argument("of these names it is none: " + name);
+        ins_dds_config_carry(&cfg, static_cast<ins_dds_kind_t>(number(kinds, name)));
     }
-    return static_cast<uint32_t>(found - names.begin());
+    for (const std::string& choice : qos)
+    {
+        checked(ins_dds_config_qos(&cfg, choice.c_str()));
+    }
+    cfg.topic[number(kinds, kind)].name = topic.c_str();
+    if (decimate > 0)
+    {
+        ins_dds_config_carry(&cfg, INS_DDS_STATE_DECIMATED);
+        cfg.topic[INS_DDS_STATE_DECIMATED].decimate = decimate;
+    }
+    for (ins_dds_topic_config_t& each : cfg.topic)
+    {
+        each.qos.history = publishes ? each.qos.history : std::max(each.qos.history, waiting);
+    }
+    choose_network(cfg, xml, interface, peers);
+    cfg.publishes = publishes ? 1 : 0;
+    cfg.subscribes = publishes ? 0 : 1;
+    cfg.strength = exclusive ? 1 : 0;
+    cfg.security = files.get();
+    checked(ins_dds_open(&cfg, &self_));
 }
 
-class Handle
+namespace
 {
-  public:
-    Handle(uint32_t domain, const std::string& topic, const OptionalText& xml, bool publishes, bool exclusive,
-           const OptionalText& security, const std::string& kind, const OptionalText& interface,
-           const OptionalText& peers)
-    {
-        const Security files(security);
-        ins_dds_config_t cfg;
-        ins_dds_config_default(&cfg);
-        cfg.domain = domain;
-        cfg.topic[INS_DDS_STATE].name = nullptr;
-        ins_dds_topic_config_t& carried = cfg.topic[number(kinds, kind)];
-        carried.name = topic.c_str();
-        choose_network(cfg, xml, interface, peers);
-        cfg.publishes = publishes ? 1 : 0;
-        cfg.subscribes = publishes ? 0 : 1;
-        carried.qos.history = publishes ? carried.qos.history : std::max(carried.qos.history, uint32_t{256});
-        cfg.strength = exclusive ? 1 : 0;
-        cfg.security = files.get();
-        if (ins_dds_open(&cfg, &self_) != INS_DDS_OK)
-        {
-            throw std::runtime_error(ins_dds_error_text());
-        }
-    }
-    ~Handle() { close(); }
-    Handle(const Handle&) = delete;
-    Handle& operator=(const Handle&) = delete;
-
-    void close()
-    {
-        ins_dds_close(self_);
-        self_ = nullptr;
-    }
-    ins_dds_t* get() const
-    {
-        if (self_ == nullptr)
-        {
-            throw std::runtime_error("this DDS handle is closed");
-        }
-        return self_;
-    }
-
-  private:
-    ins_dds_t* self_ = nullptr;
-};
 
 /// A ROS 2 node "libins". It joins the domain if a Handle of this process has it; then it must be closed first.
 class Node
@@ -214,7 +188,7 @@ nb::object text(const char* octets, size_t length)
     return nb::steal(PyUnicode_DecodeUTF8(octets, static_cast<Py_ssize_t>(length), "replace"));
 }
 
-/// Samples as dictionaries: source, published_ns, gone, and the sample as its line of JSON.
+/// Samples as dictionaries: source, kind, published_ns, gone, and the sample as its line of JSON.
 nb::list take(Handle& handle, double timeout_s)
 {
     std::vector<ins_dds_sample_t> samples(64);
@@ -231,6 +205,7 @@ nb::list take(Handle& handle, double timeout_s)
         nb::dict d;
         d["source"] = text(samples[i].source, std::strlen(samples[i].source));
         d["published_ns"] = samples[i].published_ns;
+        d["kind"] = kinds.at(samples[i].kind);
         d["gone"] = samples[i].gone != 0;
         if (samples[i].valid != 0)
         {
@@ -255,11 +230,15 @@ NB_MODULE(_dds, m)
     nb::class_<ins_navigation_t>(m, "Navigation", "An instant; what is None is not known. See ins_nav/navigation.h.")
         .def(nb::new_(&navigation), "time_ns"_a, "clock"_a = "host", "q_nb"_a = nb::none(), "w_ib_b"_a = nb::none(),
              "f_b"_a = nb::none(), "v_n"_a = nb::none(), "llh"_a = nb::none(), "P"_a = nb::none());
-    nb::class_<Handle>(m, "Handle")
+    nb::class_<Handle> handle(m, "Handle");
+    bind_messages(handle);
+    handle
         .def(nb::init<uint32_t, const std::string&, const OptionalText&, bool, bool, const OptionalText&,
-                      const std::string&, const OptionalText&, const OptionalText&>(),
+                      const std::string&, const OptionalText&, const OptionalText&, const std::vector<std::string>&,
+                      const std::vector<std::string>&, uint32_t>(),
              "domain"_a, "topic"_a, "xml"_a.none(), "publishes"_a, "exclusive"_a = false, "security"_a = nb::none(),
-             "kind"_a = "state", "interface"_a = nb::none(), "peers"_a = nb::none())
+             "kind"_a = "state", "interface"_a = nb::none(), "peers"_a = nb::none(),
+             "also"_a = std::vector<std::string>(), "qos"_a = std::vector<std::string>(), "decimate"_a = 0)
         .def("publish", publish, "state"_a, "source"_a, "published_ns"_a)
         .def("publish_navigation", publish_navigation, "navigation"_a, "index"_a, "t_s"_a, "source"_a, "published_ns"_a)
         .def("take", take, "timeout_s"_a)

@@ -3,11 +3,13 @@
 #ifndef INS_DDS_MODULE_HPP_INCLUDED
 #define INS_DDS_MODULE_HPP_INCLUDED
 #include "ins_dds/dds.h"
+#include <algorithm>
 #include <array>
 #include <nanobind/nanobind.h>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 using OptionalText = std::optional<std::string>;
 
@@ -55,6 +57,55 @@ inline int checked(int result)
     return result;
 }
 
+template <size_t n> uint32_t number(const std::array<const char*, n>& names, const std::string& name)
+{
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+    {
+        throw std::invalid_argument("of these names it is none: " + name);
+    }
+    return static_cast<uint32_t>(found - names.begin());
+}
+
+#define INS_DDS_TEXT(name, value, text) text,
+inline const std::array<const char*, 3> clocks = {INS_NAVIGATION_CLOCK_LIST(INS_DDS_TEXT)};
+
+/// What a handle carries, by name.
+inline const std::array<const char*, INS_DDS_KINDS> kinds = {"state",       "solution", "status",
+                                                             "innovations", "raw_imu",  "state_decimated"};
+
+/// A writer or a reader of one kind of messages, and of others on their usual topics.
+class Handle
+{
+  public:
+    Handle(uint32_t domain, const std::string& topic, const OptionalText& xml, bool publishes, bool exclusive,
+           const OptionalText& security, const std::string& kind, const OptionalText& interface,
+           const OptionalText& peers, const std::vector<std::string>& also, const std::vector<std::string>& qos,
+           uint32_t decimate);
+    ~Handle() { close(); }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+
+    void close()
+    {
+        ins_dds_close(self_);
+        self_ = nullptr;
+    }
+    ins_dds_t* get() const
+    {
+        if (self_ == nullptr)
+        {
+            throw std::runtime_error("this DDS handle is closed");
+        }
+        return self_;
+    }
+
+  private:
+    ins_dds_t* self_ = nullptr;
+};
+
+/// Status, innovations, raw IMU.
+void bind_messages(nanobind::class_<Handle>& handle);
 /// Messages as octets, ins_dds/raw.h.
 void bind_raw(nanobind::module_& m);
 

@@ -67,7 +67,8 @@ const std::vector<const char*> STATE_COLUMNS = {"t_s",
 const std::vector<const char*> CHECK_COLUMNS = {
     "t_s",         "dp_n_before", "dp_e_before", "dp_d_before", "dp_n_after", "dp_e_after", "dp_d_after",
     "dv_n_before", "dv_e_before", "dv_d_before", "dv_n_after",  "dv_e_after", "dv_d_after", "nis_n",
-    "nis_e",       "nis_d",       "nis_vn",      "nis_ve",      "nis_vd",     "refused",    "withheld"};
+    "nis_e",       "nis_d",       "nis_vn",      "nis_ve",      "nis_vd",     "refused",    "withheld",
+    "sigma_n",     "sigma_e",     "sigma_d",     "sigma_vn",    "sigma_ve",   "sigma_vd"};
 
 const double* row(const Rows& rows, size_t i)
 {
@@ -160,6 +161,16 @@ Table state_table(const std::vector<ins_post::State>& states)
     return table(std::move(out), STATE_COLUMNS.size());
 }
 
+Table covariance_table(const std::vector<ins_post::State>& states)
+{
+    std::vector<double> out;
+    for (const ins_post::State& s : states)
+    {
+        append(out, s.P);
+    }
+    return table(std::move(out), std::tuple_size<decltype(ins_post::State::P)>::value);
+}
+
 Table check_table(const std::vector<ins_post::Check>& checks)
 {
     std::vector<double> out;
@@ -169,6 +180,7 @@ Table check_table(const std::vector<ins_post::Check>& checks)
         append(out, c.dp_before, c.dp_after, c.dv_before, c.dv_after, c.nis);
         out.push_back(static_cast<double>(c.refused));
         out.push_back(c.withheld ? 1.0 : 0.0);
+        append(out, c.sigma);
     }
     return table(std::move(out), CHECK_COLUMNS.size());
 }
@@ -337,6 +349,9 @@ NB_MODULE(_post, m)
         .def_prop_ro(
             "states", [](const ins_post::Replay& self) { return state_table(self.states()); }, nb::rv_policy::move,
             "What the filter said, (N, len(STATE_COLUMNS)).")
+        .def_prop_ro(
+            "covariances", [](const ins_post::Replay& self) { return covariance_table(self.states()); },
+            nb::rv_policy::move, "Upper triangles of P of attitude, velocity and position, (N, 45); 0: not known.")
         .def_prop_ro(
             "checks", [](const ins_post::Replay& self) { return check_table(self.checks()); }, nb::rv_policy::move,
             "Fixes beside the filter, (N, len(CHECK_COLUMNS)); dp and dv are filter less fix.");

@@ -2,6 +2,7 @@
 /// \brief  Topics, writers and readers of idl/libins.idl on Cyclone DDS 0.10.
 /// SPDX-License-Identifier: MIT
 #include "dds_internal.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,6 +32,23 @@ void ins_dds_config_default(ins_dds_config_t* cfg)
     }
     cfg->topic[INS_DDS_STATE_DECIMATED].decimate = 10;
     ins_dds_config_carry(cfg, INS_DDS_STATE);
+}
+
+int ins_dds_config_qos(ins_dds_config_t* cfg, const char* choice)
+{
+    const size_t length = strcspn(choice, "=");
+    char names[128] = "";
+    for (int kind = 0; kind < INS_DDS_KINDS; kind++)
+    {
+        const char* const name = strchr(kinds[kind].usual, '/') + 1;
+        if (choice[length] == '=' && strlen(name) == length && strncmp(choice, name, length) == 0)
+        {
+            return ins_dds_qos_profile(choice + length + 1, &cfg->topic[kind].qos);
+        }
+        const size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "", name);
+    }
+    return dds_fail(INS_DDS_E_ARGUMENT, "QoS '%s': TOPIC=PROFILE is needed, with TOPIC one of %s", choice, names);
 }
 
 static int check(const ins_dds_config_t* cfg)

@@ -155,6 +155,7 @@ Check GpsDr::fix(double t, const Fix& fix)
 {
     Check check{};
     check.nis.fill(NOTHING);
+    check.sigma.fill(NOTHING);
     check.dp_before = check.dp_after = check.dv_before = check.dv_after = {NOTHING, NOTHING, NOTHING};
     if (!fix.withheld && !placed_)
     {
@@ -188,10 +189,10 @@ Check GpsDr::fix(double t, const Fix& fix)
             check.dv_before[i] = then_v.v_n[i] - fix.v_n[i];
             check.dv_after[i] = check.dv_before[i] + after.v_n[i] - before.v_n[i];
         }
+        check.sigma[i] = std::sqrt(before.variance[i] + fix.sigma_p[i] * fix.sigma_p[i]);
         if (!fix.withheld)
         {
-            check.nis[i] =
-                check.dp_before[i] * check.dp_before[i] / (before.variance[i] + fix.sigma_p[i] * fix.sigma_p[i]);
+            check.nis[i] = check.dp_before[i] * check.dp_before[i] / (check.sigma[i] * check.sigma[i]);
         }
     }
     return check;

@@ -1,6 +1,7 @@
 /// \file   gps_ins.cpp
 /// \brief  ins_post/gps_ins.hpp: events to ins/gps_ins.h. SPDX-License-Identifier: MIT
 #include "ins_post/gps_ins.hpp"
+#include "ins/quat.h"
 #include "post_internal.hpp"
 #include <algorithm>
 #include <cmath>
@@ -168,10 +169,35 @@ Instant GpsIns::recall(double t) const
     return at;
 }
 
+/// Of the innovations: H P H' + R with H = [-u x, 0, I] for the antenna's position at the lever arm u, in n, and [0, I, 0] for its
+/// velocity. Of P all is in ins/kf15.h's order.
+std::array<double, 6> GpsIns::expected(const Fix& fix) const
+{
+    const Square P = square(n_.base.kf);
+    const auto at = [&](size_t i, size_t j) { return P[INS_KF15_N * i + j]; };
+    ins_real u[3];
+    ins_quat_rotate(nominal(n_.base).q_nb.data(), n_.base.cfg.antenna_b, u);
+    std::array<double, 6> sigma;
+    sigma.fill(NOTHING);
+    for (size_t i = 0; i < 3; i++)
+    {
+        const size_t j = (i + 1) % 3;
+        const size_t k = (i + 2) % 3; // the error i is p_i + u_k phi_j - u_j phi_k
+        const size_t p = INS_KF15_P + i;
+        const double variance = at(p, p) + u[k] * u[k] * at(j, j) + u[j] * u[j] * at(k, k) +
+                                2.0 * (u[k] * at(p, j) - u[j] * at(p, k) - u[j] * u[k] * at(j, k));
+        sigma[i] = fix.sigma_p[i] > 0.0 ? std::sqrt(variance + fix.sigma_p[i] * fix.sigma_p[i]) : NOTHING;
+        const double of_velocity = at(INS_KF15_V + i, INS_KF15_V + i);
+        sigma[3 + i] = fix.sigma_v[i] > 0.0 ? std::sqrt(of_velocity + fix.sigma_v[i] * fix.sigma_v[i]) : NOTHING;
+    }
+    return sigma;
+}
+
 Check GpsIns::fix(double t, const Fix& fix)
 {
     Check check{};
     check.nis.fill(NOTHING);
+    check.sigma.fill(NOTHING);
     if (!started_)
     {
         return check;
@@ -187,6 +213,7 @@ Check GpsIns::fix(double t, const Fix& fix)
         v_n[i] = fix.v_n[i] + then.v_n[i] - earlier.v_n[i]; // brought to fix.t by the IMU
         check.dv_before[i] = then.v_n[i] - v_n[i];
     }
+    check.sigma = expected(fix);
     aided_ = false;
     if (!fix.withheld)
     {

@@ -143,6 +143,14 @@ State described(double t, const Nominal& at, const Square& P)
     out.sigma_p = sigma(P, INS_KF15_P);
     out.sigma_bias_g = sigma(P, INS_KF15_BG);
     out.sigma_bias_a = sigma(P, INS_KF15_BA);
+    size_t k = 0;
+    for (size_t i = 0; i < INS_KF15_BG; i++)
+    {
+        for (size_t j = i; j < INS_KF15_BG; j++)
+        {
+            out.P[k++] = P[INS_KF15_N * i + j];
+        }
+    }
     return out;
 }
 

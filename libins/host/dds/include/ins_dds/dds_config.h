@@ -106,6 +106,9 @@ INS_API void ins_dds_config_carry(ins_dds_config_t* cfg, ins_dds_kind_t kind);
 /// A profile by its name: default, sensor_data, latched, reliable (docs/dds.md says what they hold).
 /// \return INS_DDS_OK; INS_DDS_E_ARGUMENT: there is none of that name; the error text lists them.
 INS_API int ins_dds_qos_profile(const char* name, ins_dds_qos_t* qos);
+/// One topic's profile from a text such as "nav_state=sensor_data": the usual name without "libins/", then the profile's.
+/// \return INS_DDS_OK; INS_DDS_E_ARGUMENT: no such topic or profile; the error text lists them.
+INS_API int ins_dds_config_qos(ins_dds_config_t* cfg, const char* choice);
 /// The six files as `ins keys` names them in a folder.
 /// \param[out] memory  [INS_DDS_SECURITY_MEMORY] holds the paths, as long as `security` is used.
 /// \return INS_DDS_OK; INS_DDS_E_ARGUMENT: the name of the folder is too long.

@@ -87,6 +87,7 @@ class GpsIns : public Filter
   private:
     Instant antenna() const;
     Instant recall(double t) const;
+    std::array<double, 6> expected(const Fix& fix) const;
     void keep_before(double t, const ins_gps_ins_t& predicted);
     void keep_after();
     void aid(double t, ins_status_t (*how)(ins_gps_ins_t*));

@@ -66,6 +66,8 @@ struct State
     Vec3 bias_g, bias_a;              ///< [rad/s], [m/s^2]
     Vec3 sigma_phi, sigma_v, sigma_p; ///< standard deviations in n [rad], [m/s], [m]
     Vec3 sigma_bias_g, sigma_bias_a;
+    /// Upper triangle, row by row, of the covariance of attitude, velocity and position errors, each north, east, down; 0: not known.
+    std::array<double, 45> P;
     bool aided; ///< the last fix was used
 };
 
@@ -73,8 +75,10 @@ struct State
 struct Check
 {
     double t;
-    Vec3 dp_before, dp_after;  ///< filter - fix: north, east, down [m]
-    Vec3 dv_before, dv_after;  ///< [m/s]
+    Vec3 dp_before, dp_after; ///< filter - fix: north, east, down [m]
+    Vec3 dv_before, dv_after; ///< [m/s]
+    /// Expected deviation of dp_before and dv_before: what the filter takes for the fix's and its own; NaN: not known.
+    std::array<double, 6> sigma;
     std::array<double, 6> nis; ///< of the three positions, the three velocities; NaN: not used
     unsigned refused;          ///< bit i: component i was outside the gate, or not a number
     bool withheld;
