@@ -196,3 +196,40 @@ TEST_F(Vehicle, RefusesAConfigurationThatCannotBeAndSaysWhy)
         EXPECT_EQ(ins_vehicle_init(&v, &cfg), INS_E_RANGE);
     }
 }
+
+TEST_F(Vehicle, ItsCovarianceIsThatOfTheFilterInNorthEastDown)
+{
+    Drive d(3);
+    ins_navigation_t n;
+    ins_vehicle_navigation(&v, &last, 5, &n);
+    EXPECT_EQ(n.valid, 0U) << "nothing is known yet";
+    drive(d, 60, true, true);
+    ins_vehicle_navigation(&v, &last, 5, &n);
+    EXPECT_EQ(n.valid, static_cast<uint32_t>(INS_NAVIGATION_ATTITUDE | INS_NAVIGATION_VELOCITY |
+                                             INS_NAVIGATION_POSITION | INS_NAVIGATION_COVARIANCE));
+    EXPECT_EQ(n.time_ns, 5);
+    ins_real x[6];
+    ins_real P[36];
+    ASSERT_EQ(ins_gps_dr_state(&v.ours, x, P), INS_OK);
+    const auto at = [&](int i, int j) { return n.P[INS_NAVIGATION_P * i + j]; };
+    EXPECT_DOUBLE_EQ(at(6, 6), P[7]);
+    EXPECT_DOUBLE_EQ(at(7, 7), P[0]);
+    EXPECT_DOUBLE_EQ(at(6, 7), P[1]);
+    EXPECT_DOUBLE_EQ(at(2, 2), P[14]);
+    EXPECT_DOUBLE_EQ(at(7, 2), P[2]);
+    // Along and across the way: of the speed, and of the heading times the speed.
+    const double s = std::sin(x[2]);
+    const double c = std::cos(x[2]);
+    const double along = c * c * at(3, 3) + 2 * s * c * at(3, 4) + s * s * at(4, 4);
+    const double across = s * s * at(3, 3) - 2 * s * c * at(3, 4) + c * c * at(4, 4);
+    EXPECT_NEAR(along, P[21], 1e-12 + 1e-9 * P[21]);
+    EXPECT_NEAR(across, x[3] * x[3] * P[14], 1e-12 + 1e-9 * across);
+    for (int i = 0; i < INS_NAVIGATION_P; i++)
+    {
+        for (int j = 0; j < INS_NAVIGATION_P; j++)
+        {
+            EXPECT_DOUBLE_EQ(at(i, j), at(j, i));
+        }
+        EXPECT_EQ(at(8, i), 0.0) << "the height is not known";
+    }
+}

@@ -27,7 +27,7 @@ CHECK = {name: n for n, name in enumerate(_post.CHECK_COLUMNS)}
 def heard() -> dict[str, list[dict]]:
     """Everything, by kind: one subscriber from before the replay begins until its publisher has gone."""
     command = [sys.executable, "-m", "libins", "replay", str(WALK / "walk.toml"), "--dds", "--domain", str(DOMAIN)]
-    options = ["--speed", str(SPEED), "--decimate", str(DECIMATE), "--qos", "nav_state=reliable"]
+    options = ["--ros", "/walk", "--speed", str(SPEED), "--decimate", str(DECIMATE), "--qos", "nav_state=reliable"]
     qos = [f"{topic}=reliable" for topic in ("nav_state", "innovations", "raw_imu", "nav_state_decimated")]
     reader = _dds.Handle(DOMAIN, _dds.TOPICS["state"], None, publishes=False, also=list(KINDS), qos=qos)
     found: dict[str, list[dict]] = {kind: [] for kind in ("state", *KINDS)}

@@ -62,24 +62,24 @@ class Stream:
         self.published = 0
         self.known = bool(run.covariances.any())
         # The run's states are in the mount's frame where there is one, the samples in the IMU's.
-        given = increments(drive.imu) if config.filter == "gps_ins" and config.vehicle != "car" else None
-        self.motion = (
-            None if given is None else (given.t, given.theta / given.period[:, None], given.v / given.period[:, None])
-        )
+        self.motion: tuple[Array, Array, Array] | None = None
+        if drive.imu is not None and config.filter == "gps_ins" and config.vehicle != "car":
+            given = increments(drive.imu)
+            period = given.period[:, None]
+            self.motion = (given.t, given.theta / period, given.v / period)
 
     def _head(self, t: float) -> tuple[int, str]:
         return round((self.offset_s + t) * 1e9), CLOCK
 
-    def _motion(self, t: float, state: list[float]) -> dict[str, list[float]]:
+    def _motion(self, t: float, state: list[float]) -> tuple[list[float] | None, list[float] | None]:
+        """Rate and specific force, biases taken off."""
         if self.motion is None:
-            return {}
+            return None, None
         times, rates, forces = self.motion
         at = max(int(np.searchsorted(times, t, side="right")) - 1, 0)
-        biases = state[STATE["bg_x_rad_s"] : STATE["ba_z_m_s2"] + 1]
-        return {
-            "w_ib_b": [a - b for a, b in zip(rates[at].tolist(), biases[:3], strict=True)],
-            "f_b": [a - b for a, b in zip(forces[at].tolist(), biases[3:], strict=True)],
-        }
+        gyro = np.array(state[STATE["bg_x_rad_s"] : STATE["bg_z_rad_s"] + 1])
+        accel = np.array(state[STATE["ba_x_m_s2"] : STATE["ba_z_m_s2"] + 1])
+        return (rates[at] - gyro).tolist(), (forces[at] - accel).tolist()
 
     def state(self, index: int) -> None:
         """One of the run's states, and each second a status."""
@@ -88,13 +88,15 @@ class Stream:
         row = self.run.states[index].tolist()
         t = row[0]
         position = row[STATE["latitude_rad"] : STATE["height_m"] + 1]
+        w_ib_b, f_b = self._motion(t, row)
         instant = _dds.Navigation(
             *self._head(t),
             q_nb=row[STATE["q_w"] : STATE["q_z"] + 1],
             v_n=row[STATE["v_n_m_s"] : STATE["v_d_m_s"] + 1],
             llh=position,
             P=self.run.covariances[index].tolist() if self.known else None,
-            **self._motion(t, row),
+            w_ib_b=w_ib_b,
+            f_b=f_b,
         )
         self.published += 1
         if self.outlets.node is not None:
@@ -142,6 +144,7 @@ class Stream:
     def sample(self, index: int) -> None:
         """One of the IMU."""
         imu = self.drive.imu
+        assert imu is not None
         t = float(imu.t[index])
         dt = t - float(imu.t[index - 1]) if index > 0 else math.nan
         self.outlets.handle.publish_raw_imu(
@@ -169,7 +172,7 @@ class Outlets:
                 yield float(times[k]), order, k
 
         parts = [within(run.checks[:, 0], 1), within(run.states[:, 0], 2)]
-        if self.handle is not None and config.filter == "gps_ins":
+        if self.handle is not None and drive.imu is not None:
             parts.append(within(drive.imu.t, 0))
         what = (stream.sample, stream.check, stream.state)
         begin = time.monotonic()

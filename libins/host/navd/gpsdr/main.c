@@ -99,7 +99,7 @@ static void hand_on(daemon_t* self, const ins_nav_solution_t* solution)
         self->shown = tasks;
     }
     ins_navigation_t navigation;
-    ins_navigation_from_solution(solution, wall_ns(self->last_ns), &navigation);
+    ins_vehicle_navigation(&self->vehicle, solution, wall_ns(self->last_ns), &navigation);
     if (output_solution(&self->output, solution, &navigation, &stop, error, sizeof error) != 0)
     {
         fprintf(stderr, "ins-gpsdr: %s\n", error);

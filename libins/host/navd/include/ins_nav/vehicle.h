@@ -25,6 +25,7 @@
 #include "ins/gps_dr_paper.h"
 #include "ins/nmea.h"
 #include "ins_nav/nav_input.h"
+#include "ins_nav/navigation.h"
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -109,6 +110,11 @@ INS_API ins_status_t ins_vehicle_init(ins_vehicle_t* self, const ins_vehicle_con
 /// An octet came. Either port may carry NMEA, the board's sentences or both. \param[in] port  below INS_VEHICLE_PORTS.
 /// \return 1: *solution is new, zone is 0 and en_m counts from the first fix; 0.
 INS_API int ins_vehicle_octet(ins_vehicle_t* self, unsigned port, ins_octet_t octet, ins_nav_solution_t* solution);
+/// The solution as an instant, with the filter's covariance (INS_VEHICLE_OURS alone) once it has a heading. Roll and pitch are taken for
+/// zero, so their deviation is a road's slope, INS_VEHICLE_SLOPE; height and vertical velocity are not known and not in it.
+INS_API void ins_vehicle_navigation(const ins_vehicle_t* self, const ins_nav_solution_t* solution, int64_t time_ns,
+                                    ins_navigation_t* out);
+#define INS_VEHICLE_SLOPE 0.05 ///< [rad]
 /// INS_GPS_DR_NONE ...
 INS_API int ins_vehicle_source(const ins_vehicle_t* self);
 /// Deviation of the position, both coordinates [m]; 0 without one.
