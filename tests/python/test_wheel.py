@@ -80,9 +80,10 @@ def test_what_the_wheel_holds(wheel: Path):
     images |= {f"firmware/{p.name}.f2812" for p in (ROOT / "emu/f2812_sci/firmware").iterdir() if p.is_dir()}
     images.add("firmware/thesis_raw.f2812")
     scenarios |= {f"scenarios_f2812/{p.name}" for p in (ROOT / "emu/f2812_sci/scenarios").iterdir()}
+    page = {f"view/{p.name}" for p in (ROOT / "bindings/python/libins/view").iterdir()}
     libraries = {n for n in names if n.endswith(".so")}
     assert {n.split(".")[0] for n in libraries} == {"core", "coref", "_post", "_run", "_truth"}
-    assert names - libraries == sources | built | images | scenarios | {"bin/ins-navd", "bin/ins-gpsdr"}
+    assert names - libraries == sources | built | images | scenarios | page | {"bin/ins-navd", "bin/ins-gpsdr"}
     version = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8").split("project(libins VERSION ")[1].split()[0]
     assert wheel.name.startswith(f"libins-{version}-")
 

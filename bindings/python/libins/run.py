@@ -259,10 +259,10 @@ def _judged(expect: Expect, summary: dict[str, Any], outside: Collection[str]) -
     ]
     theirs = tuple(f"hosts.{name}.{inside}" for name in outside for inside in INSIDE)
     judged = not expect.value.startswith(theirs if summary["link"] is not None else (*theirs, *INSIDE))
-    return Check(f"{expect.value} {' and '.join(bounds)}", _failure(expect, summary) if judged else None, judged)
+    return Check(f"{expect.value} {' and '.join(bounds)}", failure(expect, summary) if judged else None, judged)
 
 
-def _failure(expect: Expect, summary: dict[str, Any]) -> str | None:
+def failure(expect: Expect, summary: dict[str, Any]) -> str | None:
     """Why an expectation is not met, or None."""
     value: Any = summary
     for name in expect.value.split("."):

@@ -19,6 +19,7 @@ from libins.view_forms import fault_forms
 from libins.view_hand import LINE, Hand
 from libins.view_history import LINE_PINS, OCTETS_KEPT, WIRES, History, Rows
 from libins.view_session import Asked, Json, Move
+from libins.view_verdicts import verdicts
 
 FOREVER_PS = 10**18
 EDGES_TOLD, SAMPLES_TOLD = 2000, 500
@@ -142,6 +143,7 @@ class BoardEngine:
             **self._passed(whole, now),
             **self._attitude(now),
             "link": self._link(),
+            "verdicts": verdicts(self.d.scenario, run, self.history.totals),
             "knobs": self.hand.values(),
             "faults": self.hand.fault_states(),
         }
@@ -182,26 +184,30 @@ class BoardEngine:
         return {WIRES[wire] for wire in set(edges[:, 1].tolist())}
 
     def _attitude(self, now: int) -> Json:
-        motion, t_s = self.d.run.motion, now * 1e-12
+        """Truth now, and the newest state; of accelerometers on a track, the truth at that state."""
         state = self.history.totals.last
-        truth = {"q": motion.attitude(t_s), "euler": motion.euler(t_s), "w": motion.rate(t_s)}
-        if state is None:
-            return {"truth": truth, "estimate": None, "error": None}
 
         def columns(*names: str) -> list[float]:
+            assert state is not None
             return [float(state[COLUMNS[name]]) for name in names]
 
+        truth: Json | None = None
+        if self.d.scenario.tables.sixacc is None:
+            motion, t_s = self.d.run.motion, now * 1e-12
+            truth = {"q": motion.attitude(t_s), "euler": motion.euler(t_s), "w": motion.rate(t_s)}
+        elif state is not None:
+            euler = columns("true_roll_rad", "true_pitch_rad", "true_yaw_rad")
+            truth = {"q": columns("true_q_w", "true_q_x", "true_q_y", "true_q_z"), "euler": euler, "w": None}
+        if state is None:
+            return {"truth": truth, "estimate": None, "error": None}
         estimate = {
             "t_s": columns("t_s")[0],
             "q": columns("q_w", "q_x", "q_y", "q_z"),
             "euler": columns("roll_rad", "pitch_rad", "yaw_rad"),
             "w": columns("w_x_rad_s", "w_y_rad_s", "w_z_rad_s"),
         }
-        return {
-            "truth": truth,
-            "estimate": estimate,
-            "error": columns("error_roll_rad", "error_pitch_rad", "error_yaw_rad"),
-        }
+        error = columns("error_roll_rad", "error_pitch_rad", "error_yaw_rad")
+        return {"truth": truth, "estimate": estimate, "error": error}
 
     def _link(self) -> Json:
         c = self.d.run.counters()

@@ -12,6 +12,7 @@ from libins.errors import UsageError
 from libins.net_scenario import NetScenario
 from libins.view_board import BoardEngine
 from libins.view_net import NetEngine
+from libins.view_recording import SUFFIXES, RecordingEngine
 from libins.view_session import SPEED_MAX, SPEED_MIN, Engine
 
 
@@ -21,8 +22,8 @@ def options(command: argparse.ArgumentParser) -> None:
         "scenario",
         nargs="?",
         default="default",
-        help="a TOML file, the name of one that comes with the package (default), an image alone (F.ihx), or a "
-        "snapshot",
+        help="a TOML file, the name of one that comes with the package (default), an image alone (F.ihx), a "
+        "snapshot, or a recording: F.mcap of ins record, F.csv of ins replay",
     )
     command.add_argument("--firmware", type=Path, metavar="F.ihx", help="another image than the scenario's")
     command.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="as in ins run")
@@ -54,6 +55,8 @@ def run(parsed: argparse.Namespace) -> int:
 
 
 def _engine(parsed: argparse.Namespace) -> Engine:
+    if Path(parsed.scenario).suffix in SUFFIXES:
+        return RecordingEngine(Path(parsed.scenario))
     settings = dict(map(scenario.setting, parsed.set))
     if not zipfile.is_zipfile(parsed.scenario):
         loaded = scenario.load(scenario.find(parsed.scenario), parsed.firmware, settings)

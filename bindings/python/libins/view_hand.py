@@ -94,6 +94,9 @@ class Hand:
                 "group": group,
             }  # fmt: skip
 
+        volts = [knob(f"volts.{i}", f"AIN{i}", "V", 0.0, VOLTS_MAX, 0.01, "Inputs by hand") for i in range(INPUTS)]
+        if not self._gyros:
+            return volts
         turned = [knob(f"rate.{a}", f"Rate {a}", "rad/s", -RATE_MAX, RATE_MAX, 0.01, "Turn the board") for a in AXES]
         tilted = [
             knob(f"tilt.{name}", name.capitalize(), "rad", -limit, limit, 0.01, "Tilt the board")
@@ -101,8 +104,7 @@ class Hand:
         ]
         errors = [knob(f"bias.{a}", f"Bias {a}", "rad/s", -BIAS_MAX, BIAS_MAX, 0.001, "Gyro errors") for a in AXES]
         noise = knob("noise", "Noise", "rad/s/sqrt(Hz)", 0.0, NOISE_MAX, 0.0001, "Gyro errors")
-        volts = [knob(f"volts.{i}", f"AIN{i}", "V", 0.0, VOLTS_MAX, 0.01, "Inputs by hand") for i in range(INPUTS)]
-        return [*turned, *tilted, *errors, noise, *volts] if self._gyros else volts
+        return [*turned, *tilted, *errors, noise, *volts]
 
     def values(self) -> Json:
         """Of all knobs now; None: the input follows its sensor."""
