@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests/view"))
 from view_kit import Server, viewing
 
-HALF_HOUR_PS = 1800 * 10**12
+HOUR_PS = 3600 * 10**12
 WARM_PS = 600 * 10**12
 """Until then what is kept fills up to its bounds."""
 
@@ -24,12 +24,12 @@ def resident_mib(process: int) -> float:
     return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
 
 
-async def watch(server: Server, hours: float) -> None:
+async def watch(server: Server, hours: float, every_h: float) -> None:
     async with server.page() as page:
         began = time.monotonic()
         await page.done("speed", value="max")
         await page.ask("run")
-        due = [WARM_PS, *(n * HALF_HOUR_PS for n in range(1, round(2 * hours) + 1))]
+        due = [WARM_PS, *(round(n * every_h * HOUR_PS) for n in range(1, round(hours / every_h) + 1))]
         for goal in due:
             while page.frame["t_ps"] < goal:
                 await page.take()
@@ -37,7 +37,7 @@ async def watch(server: Server, hours: float) -> None:
             wall_s = time.monotonic() - began
             mib = resident_mib(server.process.pid)
             print(
-                f"{goal / HALF_HOUR_PS / 2:5.2f} h simulated  {wall_s:7.0f} s wall  {mib:7.1f} MiB resident  "
+                f"{goal / HOUR_PS:5.2f} h simulated  {wall_s:7.0f} s wall  {mib:7.1f} MiB resident  "
                 f"{page.frames} frames",
                 flush=True,
             )
@@ -47,9 +47,10 @@ async def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("scenario", nargs="?", default="default")
     parser.add_argument("--hours", type=float, default=8.0)
+    parser.add_argument("--every", type=float, default=0.5, help="simulated hours between two figures")
     parsed = parser.parse_args()
     async with viewing(parsed.scenario) as server:
-        await watch(server, parsed.hours)
+        await watch(server, parsed.hours, parsed.every)
 
 
 if __name__ == "__main__":

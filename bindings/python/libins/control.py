@@ -10,7 +10,7 @@ from libins.cdb import ADDRESS_END, Cdb, Function, Line
 from libins.errors import UsageError
 from libins.places import Memory, Value
 from libins.run import PS_PER_S
-from libins.timeline import SPACING, Timeline
+from libins.timeline import BUDGET, SPACING, Timeline
 from libins.unwind import Frame, Unwinder
 from libins.watch import Expression
 
@@ -20,8 +20,8 @@ SLEEP_CYCLES = 1_000_000
 """A step waits no longer for an instruction to be executed."""
 SCANS_KEPT = 128
 """So that a snapshot late in a run is no larger than an early one."""
-SEEN_SPACING = 4 * SPACING
-"""Machine cycles between snapshots where a follower has work at each."""
+SEEN_SPACING, SEEN_BUDGET = 4 * SPACING, 48 << 20
+"""Machine cycles between snapshots where a follower has work at each, and octets of them."""
 SP = 0x81
 
 
@@ -40,7 +40,8 @@ class Control:
             loaded, tables.seed, not self.navigator, trace=seen, listen=True, seen=seen, scans_kept=SCANS_KEPT
         )
         self.end_ps = round(tables.stop_s * PS_PER_S)
-        self.timeline = Timeline(self.run, tables.clock_hz, SEEN_SPACING if seen else SPACING)
+        spacing, budget = (SEEN_SPACING, SEEN_BUDGET) if seen else (SPACING, BUDGET)
+        self.timeline = Timeline(self.run, tables.clock_hz, spacing, budget)
         self.memory = Memory(self.run, self._write)
         self.breakpoints: dict[int, Breakpoint] = {}
         self.wants_to_stop: Callable[[], bool] = lambda: False
