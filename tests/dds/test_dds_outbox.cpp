@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "ins_dds/outbox.h"
 #include "process.hpp"
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
 
@@ -187,6 +189,67 @@ TEST(Outbox, AReaderThatStandsStillCostsTheNavigatorNoMessage)
     reader.signal(SIGTERM);
     EXPECT_EQ(counts.published, count) << "the writer overwrites, it does not wait";
     EXPECT_EQ(counts.dropped + counts.refused, 0U);
+}
+
+TEST(Outbox, TheDaemonTellsItsStatusAndWhatTheGyrosSaid)
+{
+    ins_dds_config_t cfg;
+    ins_dds_config_default(&cfg);
+    cfg.domain = domain();
+    cfg.publishes = 0;
+    cfg.subscribes = 1;
+    ins_dds_config_carry(&cfg, INS_DDS_STATUS);
+    ins_dds_config_carry(&cfg, INS_DDS_RAW_IMU);
+    (void)ins_dds_qos_profile("reliable", &cfg.topic[INS_DDS_RAW_IMU].qos);
+    ins_dds_t* opened = nullptr;
+    ASSERT_EQ(ins_dds_open(&cfg, &opened), INS_DDS_OK) << ins_dds_error_text();
+    const Handle dds(opened);
+    Pty pty;
+    Process navd({INS_NAVD, "--device", pty.path, "--dds=" + std::to_string(domain()), "--null-code", "0",
+                  "--lsb-deg-s", "0.01", "--source", "imu7"});
+    for (const double end = seconds_now() + limit_s; ins_dds_matched(dds.get()) < 3 && seconds_now() < end;)
+    {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    Board board(pty.fd, 0, 1000000);
+    std::map<uint64_t, std::array<double, 3>> raw;
+    std::map<uint64_t, ins_nav_state_t> states;
+    const auto got =
+        take_until(dds,
+                   [&](const auto& s)
+                   {
+                       if (s.kind == INS_DDS_RAW_IMU)
+                       {
+                           raw[s.raw_imu.index] = {s.raw_imu.gyro_b[0], s.raw_imu.gyro_b[1], s.raw_imu.gyro_b[2]};
+                           EXPECT_TRUE(std::isnan(s.raw_imu.accel_b[0]));
+                       }
+                       if (s.kind == INS_DDS_STATE)
+                       {
+                           states[s.state.index] = s.state;
+                       }
+                       return s.kind == INS_DDS_STATUS && s.status.published > 100;
+                   });
+    const ins_dds_status_t& status = got.back().status;
+    ASSERT_FALSE(got.empty()) << navd.err;
+    EXPECT_STREQ(got.back().source, "imu7");
+    EXPECT_EQ(status.mode, static_cast<uint32_t>(INS_DDS_MODE_ATTITUDE));
+    EXPECT_GT(status.counts.accepted, 100U);
+    EXPECT_TRUE(std::isnan(status.sigma_horizontal_m));
+    EXPECT_EQ(status.dropped, 0U);
+    size_t both = 0;
+    for (const auto& [index, gyro] : raw)
+    {
+        const auto state = states.find(index);
+        if (state != states.end())
+        {
+            both++;
+            for (size_t axis = 0; axis < 3; axis++)
+            {
+                EXPECT_NEAR(gyro.at(axis), state->second.w_ib_b[axis], 1e-12) << "no delays, so the rate is the code's";
+            }
+        }
+    }
+    EXPECT_GT(both, 20U);
 }
 
 TEST(Outbox, RefusesASourceOrSizeThatIsNone)

@@ -54,12 +54,16 @@ INS_API int ins_dds_publish(ins_dds_t* self, const ins_nav_state_t* state, const
 /// \param[in] state  numbers, times and counts; q_nb, euler_rad and w_ib_b follow the navigation.
 INS_API int ins_dds_publish_navigation(ins_dds_t* self, const ins_nav_state_t* state,
                                        const ins_navigation_t* navigation, const char* source, int64_t published_ns);
+/// What a navigating board says.
 INS_API int ins_dds_publish_solution(ins_dds_t* self, const ins_nav_solution_t* solution, const char* source,
                                      int64_t published_ns);
+/// How far the source is to be believed.
 INS_API int ins_dds_publish_status(ins_dds_t* self, const ins_dds_status_t* status, const char* source,
                                    int64_t published_ns);
+/// A measurement beside what the filter expected.
 INS_API int ins_dds_publish_innovations(ins_dds_t* self, const ins_dds_innovations_t* innovations, const char* source,
                                         int64_t published_ns);
+/// What the sensors said.
 INS_API int ins_dds_publish_raw_imu(ins_dds_t* self, const ins_dds_raw_imu_t* raw_imu, const char* source,
                                     int64_t published_ns);
 

@@ -45,8 +45,8 @@ typedef struct ins_dds_outbox_counts_t
 
 typedef struct ins_dds_outbox_t ins_dds_outbox_t;
 
-/// \param[in] dds, ros  either may be NULL; both belong to the outbox's thread until it is closed. Kinds that dds does not carry
-/// are passed over. \param[in] size  messages that may wait, 1 to INS_DDS_OUTBOX_MAX; rounded up to a power of two.
+/// \param[in] dds  may be NULL; belongs to the outbox's thread until it is closed. Kinds that it does not carry are passed over.
+/// \param[in] ros  the same. \param[in] size  messages that may wait, 1 to INS_DDS_OUTBOX_MAX; rounded up to a power of two.
 /// \return INS_DDS_OK, or an error, and then *self is NULL.
 INS_API int ins_dds_outbox_open(ins_dds_t* dds, ins_ros_t* ros, const char* source, uint32_t size,
                                 ins_dds_outbox_t** self);
