@@ -27,6 +27,10 @@ impl Strapdown {
         order(unsafe { sys::ins_strapdown_step(&mut self.0, increment) })
     }
 
+    pub(crate) fn raw(&self) -> &sys::ins_strapdown_t {
+        &self.0
+    }
+
     /// The attitude.
     pub fn q_nb(&self) -> &Quat {
         &self.0.sculling.q_nb

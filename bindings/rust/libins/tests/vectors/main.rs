@@ -7,6 +7,7 @@ mod filters;
 mod json;
 mod links;
 mod navigation;
+mod navigators;
 
 use json::Json;
 use libins::Real;
