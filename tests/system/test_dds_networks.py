@@ -68,7 +68,7 @@ def subscribers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[obje
 def vehicle(network: Namespace, states: Path, *options: str) -> Iterator[None]:
     """ins-navd in the network on the pty of an emulated board, as source "vehicle"; its states also in a file."""
     with board("default", "uart=pty", STOP_S) as (_, pty):
-        command = [NATIVE, "--device", pty, "--dds", "--source", "vehicle", "--json", states, *options]
+        command = [NATIVE, "--device", pty, "--source", "vehicle", "--json", states, *options]
         with ended(subprocess.Popen(network.inside(command), stderr=subprocess.PIPE, text=True)):
             yield
 
@@ -95,7 +95,7 @@ def hear(network: Namespace, command: list[object], **environment: str) -> subpr
 @pytest.mark.parametrize("language", ["C", "C++", "Python", "Rust"])
 def test_an_example_hears_the_daemon_on_loopback_alone(subscribers, tmp_path, language) -> None:
     with alone() as network:
-        with vehicle(network, tmp_path / "states"):
+        with vehicle(network, tmp_path / "states", "--dds"):
             done = hear(network, [*subscribers[language], 0, STATES])
         assert done.returncode == 0, done.stderr
         expect_states(done.stdout, tmp_path / "states")
@@ -109,7 +109,7 @@ def test_three_stacks_hear_the_daemon_across_a_cable(subscribers, tmp_path) -> N
         with (
             ended(stays),
             ThreadPoolExecutor() as at_once,
-            vehicle(here, tmp_path / "states", "--dds-interface", "cable0", "--dds-peer", ADDRESSES[1]),
+            vehicle(here, tmp_path / "states", "--dds", "--dds-interface", "cable0", "--dds-peer", ADDRESSES[1]),
         ):
             python = at_once.submit(hear, there, [*subscribers["Python"], 0, STATES], CYCLONEDDS_URI=CABLE)
             rust = at_once.submit(hear, there, [*subscribers["Rust"], 0, STATES])
@@ -135,7 +135,9 @@ def test_ros_topics_reach_another_stack(tmp_path, joined) -> None:
     with contextlib.ExitStack() as opened:
         pair = opened.enter_context(cable()) if joined else (opened.enter_context(alone()),) * 2
         here, there = pair
-        where = {"JUDGE_ADDRESS": ADDRESSES[1], "JUDGE_PEER": ADDRESSES[0]} if joined else {}
+        where = (
+            {"JUDGE_ADDRESS": ADDRESSES[1], "JUDGE_PEER": ADDRESSES[1]} if joined else {}
+        )  # it is asked, and asks nobody
         options = ["--dds-interface", "cable0", "--dds-peer", ADDRESSES[1]] if joined else []
         listeners = {
             kind: opened.enter_context(judge(topics, kind, 0, there.inside, **where))

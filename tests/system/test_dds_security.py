@@ -83,6 +83,41 @@ def test_without_permission_the_topic_is_refused(keys, unit):
     assert "DDS security does not allow" in done.stderr and "--subscribe" in done.stderr
 
 
+def table(folder: Path, *lines: str) -> Path:
+    path = folder / "security.toml"
+    path.write_text("\n".join(["[security]", *lines, ""]), encoding="utf-8")
+    return path
+
+
+def test_the_files_may_come_from_a_table(keys, unit, tmp_path):
+    """A folder beside the file, and a key elsewhere; ins-navd takes what `ins nav` makes of it."""
+    (tmp_path / "elsewhere.pem").write_bytes((keys / "own/dash/key.pem").read_bytes())
+    (tmp_path / "dash").symlink_to(keys / "own/dash")
+    done = listen("--security", table(tmp_path, 'folder = "dash"', 'key = "elsewhere.pem"'))
+    assert done.returncode == 0 and len(done.stdout.splitlines()) == 20, done.stderr
+    (tmp_path / "elsewhere.pem").write_bytes((keys / "own/nav/key.pem").read_bytes())
+    done = listen("--security", tmp_path / "security.toml")
+    assert done.returncode == 1 and done.stdout == "", "heard with the key of another certificate"
+    (tmp_path / "elsewhere.pem").unlink()
+    nav = ins("nav", "--device", os.ttyname(os.openpty()[1]), "--dds", "--security", tmp_path / "security.toml")
+    assert nav.returncode == 2 and f"the private key cannot be read: {tmp_path}/elsewhere.pem" in nav.stderr
+
+
+@pytest.mark.parametrize(
+    ("lines", "words"),
+    [
+        (['foldr = "nav"'], ["security.toml:2", "foldr", "did you mean 'folder'"]),
+        (['key = "k.pem"'], ["security.identity_ca", "is missing"]),
+        (["folder = 3"], ["security.toml:2", "a string is needed"]),
+        (['folder = "a,b"'], ["a,b", "comma"]),
+    ],
+)
+def test_a_wrong_table_is_refused(tmp_path, lines, words):
+    for command in (["sub", "--timeout-s", "1"], ["nav", "--device", "/dev/null", "--dds"]):
+        done = ins(*command, "--security", table(tmp_path, *lines))
+        assert done.returncode == 2 and all(word in done.stderr for word in words), done.stderr
+
+
 def test_a_missing_file_is_named(keys, tmp_path):
     done = listen("--security", tmp_path)
     assert done.returncode == 2

@@ -31,6 +31,7 @@ from libins import (
     sim_cli,
     view_cli,
 )
+from libins.dds_security import for_daemon
 from libins.errors import CrashError, UsageError
 from libins.program import CONSOLES, Program, address, exit_place
 from libins.tables import PACKAGE, Loaded
@@ -392,7 +393,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         if arguments[:1] in (["nav"], ["gpsdr"]):
             path = navd_path("ins-navd" if arguments[0] == "nav" else "ins-gpsdr")
-            os.execv(path, [str(path), *arguments[1:]])
+            os.execv(path, [str(path), *for_daemon(arguments[1:])])
         options = parser().parse_args(arguments)
         commands = {
             "run": _run_command,

@@ -5,6 +5,7 @@ import os
 from pathlib import Path
 from typing import Any
 
+from libins.dds_security import places
 from libins.errors import UsageError
 
 DOMAIN_MAX = 230
@@ -35,7 +36,9 @@ def options(command: argparse.ArgumentParser, topic: bool = True) -> None:
         "--dds-peer", metavar="ADDR[,...]", help="on --dds-interface: these are asked, nothing is multicast"
     )
     command.add_argument(
-        "--security", type=Path, metavar="FOLDER", help="DDS Security with the files that `ins keys` made there"
+        "--security",
+        metavar="FOLDER|F.toml",
+        help="DDS Security with the files that `ins keys` made there, or those of the table [security]",
     )
 
 
@@ -57,7 +60,7 @@ def _module(given: argparse.Namespace) -> tuple[Any, dict[str, str | None]]:
 
 
 def _security(given: argparse.Namespace) -> str | None:
-    return None if given.security is None else str(given.security)
+    return None if given.security is None else places(given.security)
 
 
 def decimation(command: argparse.ArgumentParser) -> None:

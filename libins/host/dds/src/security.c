@@ -88,10 +88,18 @@ int ins_dds_security_folder(const char* folder, ins_dds_security_t* security, ch
         {"governance.p7s", &security->governance},
         {"permissions.p7s", &security->permissions},
     };
+    const int listed = strchr(folder, ',') != NULL;
     for (int i = 0; i < FILES; i++)
     {
         char* const path = memory + (ptrdiff_t)i * (PATH_MAX_OCTETS + 1);
-        const int length = snprintf(path, PATH_MAX_OCTETS + 1, "%s/%s", folder, files[i].name);
+        const int end = (int)strcspn(folder, ",");
+        const int length = listed ? snprintf(path, PATH_MAX_OCTETS + 1, "%.*s", end, folder)
+                                  : snprintf(path, PATH_MAX_OCTETS + 1, "%s/%s", folder, files[i].name);
+        if (listed && (folder[end] == ',') != (i < FILES - 1))
+        {
+            return dds_fail(INS_DDS_E_ARGUMENT, "DDS security: a folder is needed, or %d files, commas between", FILES);
+        }
+        folder += listed ? end + (folder[end] == ',') : 0;
         if (length < 0 || length > PATH_MAX_OCTETS)
         {
             return dds_fail(INS_DDS_E_ARGUMENT, "DDS security: the path of the folder is longer than %d octets",

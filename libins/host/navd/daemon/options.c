@@ -51,7 +51,7 @@ static const char* const help =
     "      --topic NAME          libins/nav_state, with --input nav libins/nav_solution\n"
     "      --partition NAME      none\n"
     "      --strength N          of several daemons of one source only the strongest alive is heard; 0: all are\n"
-    "      --security FOLDER     DDS Security with the files that `ins keys` made there\n"
+    "      --security FOLDER     DDS Security with the files that `ins keys` made there, or six paths\n"
     "      --lease-s S           it counts as gone after S seconds without a sign of life; 1\n"
     "      --source ID           key of the published states; ins-navd\n"
     "      --ros[=NAMESPACE]     publish ROS 2 topics (imu/data, /tf, /diagnostics; with --input nav gnss/fix, "

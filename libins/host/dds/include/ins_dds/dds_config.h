@@ -109,7 +109,7 @@ INS_API int ins_dds_qos_profile(const char* name, ins_dds_qos_t* qos);
 /// One topic's profile from a text such as "nav_state=sensor_data": the usual name without "libins/", then the profile's.
 /// \return INS_DDS_OK; INS_DDS_E_ARGUMENT: no such topic or profile; the error text lists them.
 INS_API int ins_dds_config_qos(ins_dds_config_t* cfg, const char* choice);
-/// The six files as `ins keys` names them in a folder.
+/// The six files as `ins keys` names them in a folder; or, with commas between, the six paths in the order of ins_dds_security_t.
 /// \param[out] memory  [INS_DDS_SECURITY_MEMORY] holds the paths, as long as `security` is used.
 /// \return INS_DDS_OK; INS_DDS_E_ARGUMENT: the name of the folder is too long.
 INS_API int ins_dds_security_folder(const char* folder, ins_dds_security_t* security, char* memory);
