@@ -15,7 +15,7 @@ from playwright.sync_api import Browser, Locator, Page, sync_playwright
 ROOT = Path(__file__).resolve().parents[2]
 FIRMWARE = ROOT / "emu/8051_tlc2543/firmware"
 CHROMIUM = Path("/usr/bin/chromium")
-LIMIT_MS = 8_000
+LIMIT_MS = 60_000
 """Of any wait, on a slow and loaded machine."""
 END_S = 30
 SIZE = {"width": 1280, "height": 800}

@@ -5,6 +5,8 @@ import re
 import pytest
 from page_kit import Desk, chromium, serving
 
+from libins import scenario
+
 pytestmark = pytest.mark.wall_clock
 
 WARM_S = 0.3
@@ -166,7 +168,7 @@ def test_the_terminal_sends_and_shows(desk):
     desk.find("#terminal-who").select_option("rx")
     desk.until("document.getElementById('terminal-out').textContent.includes('51 52 53')")
     desk.find("#terminal-who").select_option("tx")
-    desk.until("!document.getElementById('terminal-out').textContent.includes('host')")
+    desk.until("!document.getElementById('terminal-out').textContent.includes('→ board')")
     desk.find("#terminal-form").select_option("text")
     assert desk.find("#terminal-end").is_visible()
     desk.find("#terminal-who").select_option("rx")
@@ -298,6 +300,63 @@ def test_plots_follow_the_engine(desk):
     assert [float(text) for text in angles] == [
         pytest.approx(each * 57.29577951, abs=0.006) for each in desk.state("estimate.euler")
     ]
+
+
+def test_knobs_turn_the_board_and_hold_an_input(desk):
+    desk.show("knobs")
+    desk.find("#knob-rate\\.z").fill("0.5")
+    desk.press("Enter", "#knob-rate\\.z")
+    desk.until("insView.state.knobs['rate.z'] === 0.5")
+    desk.run_for(0.02)
+    assert desk.state("truth.w") == pytest.approx([0, 0, 0.5])
+    yaw, begin = desk.state("truth.euler")[2], desk.state("t_ps")
+    desk.run_for(0.2)
+    turned = 0.5 * (desk.state("t_ps") - begin) * 1e-12
+    assert turned > 0.09 and desk.state("truth.euler")[2] == pytest.approx(yaw + turned, abs=1e-9)
+    slider = "#panel-knobs input[aria-label='Turn the board: Rate z, slider']"
+    assert float(desk.find(slider).input_value()) == 0.5
+    desk.press("ArrowRight", slider)
+    desk.until("insView.state.knobs['rate.z'] === 0.51")
+    desk.find("#knob-volts\\.0").fill("1.25")
+    desk.press("Enter", "#knob-volts\\.0")
+    desk.until("insView.state.knobs['volts.0'] === 1.25")
+    desk.run_for(0.1)
+    assert (desk.state("volts")["0"], desk.state("codes")["0"]) == (1.25, 1024)
+    desk.page.click("#panel-knobs button[aria-label^='Inputs by hand']")
+    desk.until("insView.state.knobs['volts.0'] === null")
+    desk.page.click("#panel-knobs button[aria-label^='Turn the board']")
+    desk.until("insView.state.knobs['rate.z'] === 0")
+
+
+def test_faults_are_made_by_the_form_counted_and_ended(desk):
+    desk.show("faults")
+    desk.find("#fault-kind").select_option("adc_offset")
+    desk.find("#fault-key-lsb").fill("7")
+    desk.page.click("#fault-add")
+    desk.until("insView.state.faults.length === 1")
+    desk.run_for(0.1)
+    assert desk.state("faults")[0]["on"]
+    hits = desk.state("faults")[0]["hits"]
+    assert hits > 0 and desk.find("#panel-faults td.number").inner_text() == str(hits)
+    desk.find("#fault-kind").select_option("wire_cut")
+    desk.page.click("#fault-add")
+    assert desk.find("#fault-key-net:invalid").count() == 1 and len(desk.state("faults")) == 1
+    desk.page.click("#panel-faults button:text('Off')")
+    desk.run_for(0.1)
+    assert not desk.state("faults")[0]["on"] and desk.state("faults")[0]["hits"] == hits
+    assert desk.find("#panel-faults button:text('Off')").is_disabled()
+
+
+def test_what_was_done_is_saved_as_a_scenario(desk, tmp_path):
+    with desk.page.expect_download() as waited:
+        desk.page.click("#do-save")
+    saved = tmp_path / waited.value.suggested_filename
+    waited.value.save_as(saved)
+    done = scenario.load(saved).tables
+    assert [knob.rate_rad_s for knob in done.knob if knob.rate_rad_s][0] == [0.0, 0.0, 0.5]
+    assert [fault.kind for fault in done.fault] == ["adc_offset"]
+    assert saved.name in desk.find("#message").inner_text()
+    desk.page.click("#message button")
 
 
 def test_two_pages_see_the_same(desk):

@@ -14,7 +14,8 @@ export class Faults {
     this.list = el("table", {}, el("thead", {}, el("tr", {}, el("th", {}, "fault"), el("th", {}, "state"), el("th", { class: "number" }, "hits"), el("th"))), this.rows);
     this.none = el("div", { class: "empty" }, "Nothing is broken.");
     const add = el("form", { onsubmit: (event) => this.#add(event) }, el("div", { class: "row" }, this.kind, el("button", { class: "main", id: "fault-add" }, "Break it")), this.fields);
-    this.element = el("div", { class: "scroll" }, add, this.list, this.none);
+    this.nets = el("datalist", { id: "fault-nets" });
+    this.element = el("div", { class: "scroll" }, add, this.nets, this.list, this.none);
     this.shownRows = "";
   }
 
@@ -24,6 +25,7 @@ export class Faults {
 
   hello(hello) {
     this.kinds = hello.faults;
+    this.nets.replaceChildren(...[...hello.wires, "HOST RXD", "gnd", "vcc"].map((value) => el("option", { value })));
     this.kind.replaceChildren(...Object.keys(this.kinds).map((kind) => el("option", { value: kind }, kind)));
     this.#form();
   }
@@ -40,7 +42,7 @@ export class Faults {
     const common = { id: `fault-key-${key.name}`, required: Boolean(key.required), "aria-label": key.name };
     if (key.choices) return el("select", common, ...(key.required ? [] : [el("option", { value: "" }, "")]), ...key.choices.map((value) => el("option", { value }, String(value))));
     const isText = key.type === "text";
-    return el("input", { ...common, type: isText ? "text" : "number", step: key.type === "whole" ? 1 : "any", min: key.min, max: key.max });
+    return el("input", { ...common, type: isText ? "text" : "number", list: isText ? "fault-nets" : null, step: key.step ?? "any", min: key.min, max: key.max });
   }
 
   async #add(event) {

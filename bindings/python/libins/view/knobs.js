@@ -22,7 +22,7 @@ export class Knobs {
     const groups = Map.groupBy ? Map.groupBy(hello.knobs, (knob) => knob.group) : grouped(hello.knobs);
     this.element.replaceChildren(
       ...[...groups].flatMap(([group, knobs]) => [
-        el("div", { class: "group" }, el("span", {}, group), button("Reset", `${group}: as at the begin`, () => knobs.forEach((knob) => this.#set(knob.name, knob.value)))),
+        el("div", { class: "group" }, el("span", {}, group), button("Reset", `${group}: as when this page was opened; inputs: let go`, () => knobs.forEach((knob) => this.#set(knob.name, knob.unit === "V" ? null : knob.value)))),
         ...knobs.map((knob) => this.#row(knob)),
       ])
     );
@@ -31,18 +31,17 @@ export class Knobs {
   #row(knob) {
     const limits = { min: knob.min, max: knob.max, value: knob.value };
     const fine = { step: knob.step };
-    const changed = (event) => this.#set(knob.name, Number(event.target.value));
+    const changed = (event) => this.#set(knob.name, event.target.value === "" ? null : Number(event.target.value));
     const slider = el("input", { type: "range", "aria-label": `${knob.group}: ${knob.label}, slider`, oninput: changed, ...fine, ...limits });
     const number = el("input", { type: "number", id: `knob-${knob.name}`, "aria-label": `${knob.group}: ${knob.label}`, onchange: changed, ...fine, ...limits });
     this.knobs.set(knob.name, { slider, number });
-    return el("div", { class: "knob" }, el("span", {}, knob.label), slider, number, el("span", { class: "muted" }, knob.unit ?? ""));
+    return el("div", { class: "knob" }, el("span", {}, knob.label), slider, number, el("span", { class: "muted" }, (knob.unit ?? "").replace("sqrt(Hz)", "√Hz")));
   }
 
   /** The newest value of a knob, sent no more often than each EACH_MS. */
   #set(name, value) {
     const knob = this.knobs.get(name);
-    knob.slider.value = value;
-    if (document.activeElement !== knob.number) knob.number.value = value;
+    this.#show(knob, value);
     knob.next = value;
     if (knob.timer) return;
     const send = async () => {
@@ -60,9 +59,16 @@ export class Knobs {
   draw(state) {
     for (const [name, value] of Object.entries(state.knobs ?? {})) {
       const knob = this.knobs?.get(name);
-      if (!knob || knob.timer || value === null) continue;
-      for (const input of [knob.slider, knob.number]) if (document.activeElement !== input && Number(input.value) !== value) input.value = Number(value.toPrecision(6));
+      if (knob && !knob.timer && knob.shown !== value) this.#show(knob, value);
     }
+  }
+
+  /** null: nobody turns it. */
+  #show(knob, value) {
+    knob.shown = value;
+    const text = value === null ? "" : String(Number(value.toPrecision(4)));
+    if (document.activeElement !== knob.slider || value === null) knob.slider.value = text;
+    if (document.activeElement !== knob.number || value === null) knob.number.value = text;
   }
 }
 

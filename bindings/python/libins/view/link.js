@@ -8,7 +8,7 @@ export class Link {
   #waiting = new Map();
   #number = 0;
 
-  /** listeners: hello(object), frame(object), state(connected). */
+  /** listeners: hello(object), frame(object), state(connected), error(text) that no question asked for. */
   constructor(listeners) {
     this.listeners = listeners;
     this.#open();
@@ -41,7 +41,7 @@ export class Link {
       this.#waiting.delete(message.id);
       if (message.error) reject(new Error(message.error));
       else resolve(message);
-    }
+    } else if (message.error) this.listeners.error(message.error);
   }
 
   #closed() {

@@ -132,4 +132,4 @@ view.panels = lay(document.getElementById("desk"), [
   [24, [[35, [new Attitude(view), new Place(view)]], [27, [new Errors(view), new Verdicts(view)]], [38, [new Knobs(view), new Faults(view)]]]],
 ]);
 toolbar.panels(view.panels);
-view.link = new Link({ hello: greet, frame: take, state: connect });
+view.link = new Link({ hello: greet, frame: take, state: connect, error: (text) => view.say(text) });

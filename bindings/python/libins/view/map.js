@@ -57,8 +57,8 @@ export class Place {
   frame(frame, past) {
     const { position } = frame;
     if (past !== undefined) for (const way of Object.values(this.ways)) way.cut(past);
-    if (position?.en_truth) this.ways.truth.add(frame.t_ps, position.en_truth);
-    if (position?.en) this.ways.estimate.add(frame.t_ps, position.en);
+    if (position?.en) this.ways.truth.add(frame.t_ps, position.en);
+    if (position?.estimate?.en) this.ways.estimate.add(frame.t_ps, position.estimate.en);
   }
 
   draw(state) {

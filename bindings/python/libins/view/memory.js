@@ -91,7 +91,7 @@ export class Memory {
 
   async #fetch() {
     this.again = this.waiting;
-    if (!this.view.connected || this.waiting) return;
+    if (!this.view.connected || !this.view.hello?.can_step || this.waiting) return;
     this.waiting = true;
     this.last = performance.now();
     const space = this.space.value;

@@ -38,7 +38,11 @@ export class Schematic {
 
   hello(hello) {
     const leds = LEDS.filter((net) => hello.wires.includes(net)).map((net, i) => ({ name: `D${i + 1}`, kind: "led", pins: [{ name: "K", net }], led: net }));
-    const parts = [...(hello.parts ?? []), ...leds].map((part) => ({ ...part, symbol: symbolOf(part) }));
+    const given = [...(hello.parts ?? []), ...leds];
+    const columnOf = (part) => symbolOf(part, () => "right").column;
+    const others = (pin, part) => given.filter((each) => each !== part && each.pins.some((other) => other.net === pin.net));
+    const sideOf = (part) => (pin, column) => (others(pin, part).some((each) => columnOf(each) < column) ? "left" : "right");
+    const parts = given.map((part) => ({ ...part, symbol: symbolOf(part, sideOf(part)) }));
     const columns = [0, 1, 2, 3, 4].map((column) => parts.filter((part) => part.symbol.column === column)).filter((column) => column.length);
     this.marks = [];
     this.texts = [];
@@ -76,7 +80,7 @@ export class Schematic {
         part.y += -top;
       }
       column.right = x + width + 2 * STUB;
-      x = column.right + (i + 1 < columns.length ? this.#channel(column, columns[i + 1]) : 0);
+      x = column.right + this.#channel(column, columns[i + 1] ?? []);
     });
     this.width = x;
     this.height = Math.max(...columns.flat().map((part) => part.y + heightOf(part.symbol)));
@@ -94,7 +98,8 @@ export class Schematic {
 
   /** Width between two columns: a track for each net that is not straight. */
   #channel(left, right) {
-    return CHANNEL + TRACK * this.#between(left, right).filter((net) => !net.flat).length;
+    const tracks = this.#between(left, right).filter((net) => !net.flat).length;
+    return tracks || right.length ? CHANNEL + TRACK * tracks : 0;
   }
 
   /** Nets with pins on the right of one column or the left of the next. */
@@ -124,8 +129,8 @@ export class Schematic {
   }
 
   #route(columns) {
-    for (let i = 0; i + 1 < columns.length; i++) {
-      const nets = this.#between(columns[i], columns[i + 1]);
+    for (let i = 0; i < columns.length; i++) {
+      const nets = this.#between(columns[i], columns[i + 1] ?? []);
       const bent = nets.filter((net) => !net.flat);
       bent.sort((a, b) => (a.down !== b.down ? (a.down ? 1 : -1) : a.down ? a.y - b.y : b.y - a.y));
       bent.forEach((net, k) => (net.track = columns[i].right + CHANNEL / 2 + TRACK * (k + 0.5)));

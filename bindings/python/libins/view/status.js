@@ -39,9 +39,9 @@ export class Status {
   draw(state) {
     if (state.t_ps === undefined || !this.connected) return;
     put(this.time, seconds(state.t_ps));
-    put(this.cycle, state.cycle === undefined ? "-" : String(state.cycle));
+    put(this.cycle, String(state.cycle ?? "-"));
     put(this.pc, typeof state.pc === "number" ? `${state.pc.toString(16).padStart(4, "0").toUpperCase()}h` : "-");
-    put(this.place, state.place ?? "-");
+    put(this.place, state.place || "-");
     put(this.speed, state.running ? `${(state.achieved ?? 0).toFixed(2)}×` : "-");
     put(this.link, state.link ? `${state.link.accepted ?? 0}, lost ${state.link.lost ?? 0}` : "-");
     if (state.running) this.#why("running", "good");

@@ -39,7 +39,9 @@ const ADC = {
 };
 const SENSOR = { column: 0, width: 92, left: [], right: ["OUT"], numbers: {}, least: 50, reads: true, flat: true };
 
-export const SYMBOLS = {
+const BOX = { column: 2, width: 110, left: [], right: [], numbers: {} };
+
+const SYMBOLS = {
   at89s51: MCU,
   at89s52: MCU,
   tlc2543: ADC,
@@ -50,15 +52,21 @@ export const SYMBOLS = {
   max232: { column: 3, width: 92, left: ["R1OUT", "T1IN"], right: ["R1IN", "T1OUT"], numbers: { R1OUT: 12, T1IN: 11, R1IN: 13, T1OUT: 14 } },
   led: { column: 3, width: 104, left: ["K"], right: [], numbers: {}, draw: led, flat: true, least: 26 },
   host: { column: 4, width: 84, left: ["TXD", "RXD"], right: [], numbers: {} },
-  f2812: { column: 2, width: 128, left: [], right: ["SCIRXDA", "SCITXDA", null, "SCIRXDB", "SCITXDB"], numbers: { SCITXDA: 155, SCIRXDA: 157, SCITXDB: 90, SCIRXDB: 91 } },
+  f2812: { column: 2, width: 128, left: [], right: [], numbers: {} },
+  gimu: { column: 0, width: 92, left: [], right: [], numbers: {} },
 };
 
-/** The symbol of a part: of its kind, with pins that the kind does not know on the right; or a box of the pins alone. */
-export function symbolOf(part) {
-  const known = SYMBOLS[part.kind] ?? { column: 2, width: 110, left: [], right: [], numbers: {} };
+/** The symbol of a part: of its kind, with pins that the kind does not know where sideOf says; or a box of the pins alone. */
+export function symbolOf(part, sideOf) {
+  const known = SYMBOLS[part.kind] ?? BOX;
   const all = new Set([...known.left, ...known.right]);
-  const more = part.pins.map((pin) => pin.name).filter((name) => !all.has(name));
-  return { ...known, right: [...known.right, ...more] };
+  const more = part.pins.filter((pin) => !all.has(pin.name));
+  if (!more.length) return known;
+  const given = (side) => [
+    ...known[side].filter((name) => part.pins.some((pin) => pin.name === name)),
+    ...more.filter((pin) => sideOf(pin, known.column) === side).map((pin) => pin.name),
+  ];
+  return { ...known, left: given("left"), right: given("right") };
 }
 
 export function heightOf(symbol) {

@@ -80,7 +80,7 @@ export class Terminal {
       last.count += octets.length;
       return;
     }
-    const block = el("div", { class: way === "tx" ? "board" : "host" }, way === "tx" ? "board ▸ " : "host  ▸ ", text);
+    const block = el("div", { class: way === "tx" ? "board" : "host" }, way === "tx" ? "board → " : "→ board ", text);
     block.way = way;
     block.count = octets.length;
     this.out.append(block);

@@ -93,8 +93,8 @@ export class Toolbar {
   async #save() {
     const answer = await this.view.ask("save");
     if (!answer) return;
-    download("view.toml", answer.toml, "application/toml");
-    this.view.say("view.toml plays the same run: ins run view.toml", true);
+    download(answer.name, answer.toml, "application/toml");
+    this.view.say(`${answer.name} plays the same run: ins run ${answer.name}`, true);
   }
 
   async #snapshot() {
