@@ -2,7 +2,9 @@
 // The serial line: what each side sent, as text or in hexadecimal, and a line to send to the board.
 import { button, choice, el } from "./dom.js";
 
+/** Kept, and of them in the page: a long text is laid out anew with each octet. */
 const OCTETS = 1 << 14;
+const SHOWN = 1 << 10;
 
 export class Terminal {
   name = "terminal";
@@ -63,7 +65,7 @@ export class Terminal {
     const atEnd = this.scroll.scrollTop + this.scroll.clientHeight > this.scroll.scrollHeight - 30;
     for (const [way, octets] of this.fresh) this.#show(way, octets);
     this.fresh = null;
-    while (this.shownOctets > OCTETS && this.out.childNodes.length > 1) {
+    while (this.shownOctets > SHOWN && this.out.childNodes.length > 1) {
       this.shownOctets -= this.out.firstChild.count;
       this.out.firstChild.remove();
     }
