@@ -40,9 +40,10 @@ INKS = """() => {
     const names = ["text", "muted", "accent", "bad", "outline", ...[0, 1, 2, 3, 4, 5].map((i) => `trace-${i}`)];
     return names.map((name) => [`--${name} on a canvas`, colour(name), colour("panel")]);
 }"""
-CONTROLS = """() => [...document.querySelectorAll("button, select, input, summary, [tabindex='0']")].filter(
-    (node) => node.checkVisibility({ visibilityProperty: true }) && !node.disabled && node.tabIndex >= 0
-        && !node.closest("dialog")
+CONTROLS = """() => [...document.querySelectorAll(
+    "button, select, input, summary, [tabindex='0'], [role=separator], [role=application], [role=listbox], .schematic"
+)].filter((node) => node.checkVisibility({ visibilityProperty: true }) && !node.disabled && !node.closest("dialog")
+    && (node.tabIndex >= 0 || node.getAttribute("role") !== "tab")
 )"""
 
 
