@@ -29,6 +29,7 @@ POINTS = FIGURES / "points.csv"
 ACCURACY = ROOT / "docs/accuracy.md"
 THESIS = ROOT / "docs/experiments_thesis.md"
 SIXACC = ROOT / "docs/experiments_sixacc.md"
+GYRO_FREE = ROOT / "docs/gyro_free.md"
 Points = dict[str, dict[str, dict[float, float]]]  # figure, curve, x
 
 SAME = 0.05  # relative, of a point that is a formula's error
@@ -82,6 +83,7 @@ SPECS = {
         "time [s]", "error of the angular acceleration [rad/s²]", rounding="^map", x_scale="linear"
     ),
     "sixacc_paper_linear": Figure("time [s]", "error of the acceleration [m/s²]", rounding="^map", x_scale="linear"),
+    "gyro_free_map": Figure("arm ρ [m]", "attitude, worst axis, 1.96 σ [°]"),
     "link_undetected": Figure("bit error rate", "frames taken though wrong"),
 }
 # Of middle lightness: they stand out on a white page and on a black one.
@@ -90,14 +92,20 @@ COLOURS = ["#d1495b", "#2e86c1", "#2a9d5c", "#c77d0a", "#9b59b6", "#16a0a0", "#8
 MARKERS = ["o", "s", "^", "D", "v", "P", "X", "*"]
 
 
-def run(build: Path) -> Points:
+PROGRAMS = ("figures_f64", "figures_f32", "figures_order", "figures_thesis", "figures_sixacc", "figures_gyro_free")
+MAP = ("gyro_free_map", "table_gyro_free_said", "table_gyro_free_found")
+"""Of many flights, a minute and more: `run` may make a part of it, the rest is as committed."""
+
+
+def run(build: Path, few: bool = False) -> Points:
     """Points of both number types and of the papers' systems, rounded to four figures."""
-    points: Points = {}
-    for program in ("figures_f64", "figures_f32", "figures_order", "figures_thesis", "figures_sixacc"):
+    points: Points = {figure: curves for figure, curves in read_points().items() if few and figure in MAP}
+    for program in PROGRAMS:
         path = build / "bench/figures" / program
         if not path.exists():
             raise SystemExit(f"{path} is missing: run ./dev test, or cmake --build --preset release --target {program}")
-        done = subprocess.run([path], capture_output=True, text=True, check=True)
+        part = ["few"] if few and program == "figures_gyro_free" else []
+        done = subprocess.run([path, *part], capture_output=True, text=True, check=True)
         for line in done.stdout.splitlines():
             figure, curve, x, y = line.split("\t")
             points.setdefault(figure, {}).setdefault(curve, {})[float(x)] = float(f"{float(y):.{digits(figure)}e}")
@@ -274,6 +282,19 @@ KALMAN_ROWS = {
 }
 
 
+def gyro_free(points: Points) -> str:
+    """What the filter says, and what the errors were; bold within 5 degrees by both."""
+    rows = []
+    for name, said in points["table_gyro_free_said"].items():
+        cells = []
+        for column, value in sorted(said.items()):
+            found = points["table_gyro_free_found"][name][column]
+            mark = "**" if max(value, found) <= WITHIN_DEG else ""
+            cells.append(f"{mark}{value:.1f}{mark} ({found:.1f})")
+        rows.append(f"| {' | '.join([*name.split(', '), *cells])} |")
+    return "\n".join(rows)
+
+
 def orders(points: Points) -> str:
     rows = {**MOTION_ROWS, **RATE_ROWS}
     return "\n".join(
@@ -296,6 +317,9 @@ def turns(points: Points) -> str:
     return "\n".join(rows)
 
 
+WITHIN_DEG = 5.0
+
+
 def tables(points: Points) -> dict[Path, dict[str, str]]:
     """Page, name of the table there, its rows."""
     return {
@@ -314,6 +338,7 @@ def tables(points: Points) -> dict[Path, dict[str, str]]:
             "drive": table(points["table_thesis_drive"], DRIVE_ROWS, coning_cell),
         },
         SIXACC: sixacc.tables(points),
+        GYRO_FREE: {"map": gyro_free(points)},
     }
 
 

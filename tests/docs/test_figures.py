@@ -1,5 +1,6 @@
 """Figures and tables of docs are what the library does today, and agree with what was found without it."""
 
+import os
 import sys
 
 import pytest
@@ -55,7 +56,7 @@ def unit(text: str) -> float:
 
 @pytest.fixture(scope="module")
 def points() -> make.Points:
-    return make.run(ROOT / "build/release")
+    return make.run(ROOT / "build/release", few="INS_BENCH" not in os.environ)
 
 
 def test_what_is_committed_is_what_the_library_does(points: make.Points) -> None:

@@ -83,12 +83,20 @@ TEST(NavdNav, CodesForANavigatingBoardAreHintedAt)
 TEST(NavdNav, OptionsOfTheOtherInputAreRefused)
 {
     const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
-        {{"--input", "gps"}, "--input: 'gps' is neither codes nor nav"},
+        {{"--input", "gps"}, "--input: 'gps' is none of codes, nav, six"},
         {{"--input", "nav", "--period", "0.1"}, "--period is for --input codes"},
         {{"--skew-us", "0,1,2", "--input", "nav"}, "--skew-us is for --input codes"},
         {{"--input", "nav", "--no-seq"}, "--no-seq is for --input codes"},
         {{"--input", "nav", "-a", "0,0,0"}, "--attitude-deg is for --input codes"},
         {{"--input", "nav", "--bridge-max", "3"}, "--bridge-max is for --input codes"},
+        {{"--input", "nav", "--still-s", "1"}, "--still-s is for --input six: a navigating board"},
+        {{"--still-s", "1"}, "--still-s is for --input six: these are gyros"},
+        {{"--input", "six", "--form", "one"}, "--form is for --input codes: these are accelerometers"},
+        {{"--input", "six"}, "--position-deg: is missing"},
+        {{"--input", "six", "--position-deg", "24,121,60", "--skew-us", "0,1,2"}, "'0,1,2' is not six numbers"},
+        {{"--input", "six", "--position-deg", "24,121,60", "--accel", "7,0,1,0,0,0,0,1"}, "no number from 1 to 6"},
+        {{"--input", "six", "--position-deg", "24,121,60", "--accel", "1,0,1,0,0,0,0,1"}, "for all six, or for none"},
+        {{"--input", "six", "--position-deg", "95,121,60"}, "--input six: the accelerometers"},
         {{"--input", "nav", "--block-len", "32"}, "--block-len is for --input codes"},
     };
     for (const auto& [arguments, text] : bad)

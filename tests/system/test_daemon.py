@@ -43,9 +43,11 @@ def ended(process: subprocess.Popen[str]) -> Iterator[subprocess.Popen[str]]:
 
 
 @contextlib.contextmanager
-def board(scenario: object, serial: str, stop_s: float) -> Iterator[tuple[subprocess.Popen[str], str]]:
+def board(
+    scenario: object, serial: str, stop_s: float, *options: object
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """A board in real time with its UART on an endpoint; gives the endpoint's address."""
-    command = ("run", scenario, "--serial", serial, "--wait", "--stop-s", stop_s, "--json", "-")
+    command = ("run", scenario, "--serial", serial, "--wait", "--stop-s", stop_s, "--json", "-", *options)
     with ended(ins_process(*command)) as process:
         label = process.stderr.readline()
         address = re.match(r"uart: \w+ (\S+)", label)

@@ -41,8 +41,35 @@ typedef struct totals_t
     double age_max_s;
 } totals_t;
 
+typedef struct solvers_t
+{
+    ins_nav_solver_t gyros;
+    ins_nav_six_t six;
+} solvers_t;
+
+static int unusable(const queue_item_t* item)
+{
+    fprintf(stderr, "ins-navd: sample %llu could not be used\n", (unsigned long long)item->is.sample.index);
+    return 0;
+}
+
+/// \return as hand_on().
+static int navigate_six(const queue_item_t* item, ins_nav_six_t* solver, output_t* output, totals_t* totals,
+                        char* error, size_t size)
+{
+    ins_nav_six_state_t state;
+    ins_navigation_t navigation;
+    if (ins_nav_six_step(solver, &item->is.sample, &state) != INS_OK)
+    {
+        return unusable(item);
+    }
+    totals->missed = state.nav.missed;
+    ins_nav_six_navigation(solver, &state, wall_ns(item->arrived_ns), &navigation);
+    return output_six(output, &state, &navigation, &stop, error, size) == 0 ? 1 : -1;
+}
+
 /// \return 1 handed on; 0 the sample could not be used; -1 with the reason in error.
-static int hand_on(const queue_item_t* item, ins_nav_solver_t* solver, output_t* output, const options_t* options,
+static int hand_on(const queue_item_t* item, solvers_t* solvers, output_t* output, const options_t* options,
                    totals_t* totals, char* error, size_t size)
 {
     const int64_t time_ns = wall_ns(item->arrived_ns);
@@ -53,12 +80,15 @@ static int hand_on(const queue_item_t* item, ins_nav_solver_t* solver, output_t*
         ins_navigation_from_solution(&item->is.solution, time_ns, &navigation);
         return output_solution(output, &item->is.solution, &navigation, &stop, error, size) == 0 ? 1 : -1;
     }
+    if (options->input == INPUT_SIX)
+    {
+        return navigate_six(item, &solvers->six, output, totals, error, size);
+    }
     output_sample(output, &item->is.sample, &options->nav, time_ns);
     ins_nav_state_t state;
-    if (ins_nav_solver_step(solver, &item->is.sample, &state) != INS_OK)
+    if (ins_nav_solver_step(&solvers->gyros, &item->is.sample, &state) != INS_OK)
     {
-        fprintf(stderr, "ins-navd: sample %llu could not be used\n", (unsigned long long)item->is.sample.index);
-        return 0;
+        return unusable(item);
     }
     totals->missed = state.missed;
     ins_navigation_from_state(&state, time_ns, &navigation);
@@ -66,15 +96,14 @@ static int hand_on(const queue_item_t* item, ins_nav_solver_t* solver, output_t*
 }
 
 /// The computing half, until the queue is closed, the limit is reached or the output fails.
-static void compute(queue_t* queue, ins_nav_solver_t* solver, output_t* output, const options_t* options,
-                    totals_t* totals)
+static void compute(queue_t* queue, solvers_t* solvers, output_t* output, const options_t* options, totals_t* totals)
 {
     queue_item_t item;
     char error[512];
     while (queue_get(queue, &item))
     {
         int running = RUNNING;
-        const int done = hand_on(&item, solver, output, options, totals, error, sizeof error);
+        const int done = hand_on(&item, solvers, output, options, totals, error, sizeof error);
         if (done < 0)
         {
             fprintf(stderr, "ins-navd: %s\n", error);
@@ -119,10 +148,14 @@ static void summary(const receiver_t* r, const output_t* output, const totals_t*
 
 static int run(const options_t* options, receiver_t* receiver, queue_t* queue, output_t* output)
 {
-    ins_nav_solver_t solver;
+    solvers_t solvers;
     totals_t totals = {0};
     pthread_t thread;
-    (void)ins_nav_solver_init(&solver, &options->nav); // options_parse() has checked nav
+    (void)ins_nav_solver_init(&solvers.gyros, &options->nav); // options_parse() has checked nav and six
+    if (options->input == INPUT_SIX)
+    {
+        (void)ins_nav_six_init(&solvers.six, &options->six);
+    }
     (void)ins_nav_link_init(&receiver->link, &options->nav);
     ins_nav_input_config_t input;
     ins_nav_input_config_default(&input);
@@ -137,7 +170,7 @@ static int run(const options_t* options, receiver_t* receiver, queue_t* queue, o
         output_close(output);
         return 2;
     }
-    compute(queue, &solver, output, options, &totals);
+    compute(queue, &solvers, output, options, &totals);
     (void)pthread_join(thread, NULL);
     const stop_t reason = (stop_t)atomic_load(&stop);
     if (reason == STOP_TIMEOUT)

@@ -5,19 +5,26 @@
 #define NAVD_OPTIONS_H_INCLUDED
 #include "ins_nav/nav.h"
 #include "ins_nav/nav_input.h"
+#include "ins_nav/six.h"
 
 /// What the board's blocks hold.
 typedef enum input_t
 {
     INPUT_CODES, ///< codes of three gyros: the daemon navigates
-    INPUT_NAV    ///< ins/nav_block.h: the board has navigated
+    INPUT_NAV,   ///< ins/nav_block.h: the board has navigated
+    INPUT_SIX,   ///< codes of six accelerometers: the daemon navigates
+    INPUT_COUNT
 } input_t;
 
 typedef struct options_t
 {
     input_t input;
-    const char* codes_option; ///< name of an option given that only INPUT_CODES has; NULL = none
-    ins_nav_config_t nav;     ///< octet_timeout_ms is for both
+    const char* not_for[INPUT_COUNT]; ///< name of an option given that this input does not have; NULL = none
+    const char* only_six;             ///< of one that only INPUT_SIX has
+    const char* delays;               ///< as given; NULL = 0
+    ins_nav_config_t nav;             ///< octet_timeout_ms is for all
+    ins_nav_six_config_t six;         ///< INPUT_SIX
+    unsigned accels_given;            ///< bit k: accelerometer k
     const char* device;
     long baud;
     int wait; ///< a device that is missing at the start is waited for

@@ -90,6 +90,18 @@ int output_state(output_t* self, const ins_nav_state_t* state, const ins_navigat
     return finish(self, line, length, stop, error, size);
 }
 
+int output_six(output_t* self, const ins_nav_six_state_t* state, const ins_navigation_t* navigation,
+               const atomic_int* stop, char* error, size_t size)
+{
+    char line[INS_NAV_SIX_JSON_MAX];
+    if (self->publisher != NULL)
+    {
+        publisher_put(self->publisher, &state->nav, navigation);
+    }
+    const size_t length = self->fd >= 0 ? ins_nav_six_json(state, line, sizeof line) : 0;
+    return finish(self, line, length, stop, error, size);
+}
+
 int output_solution(output_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation,
                     const atomic_int* stop, char* error, size_t size)
 {

@@ -46,6 +46,9 @@ int64_t wall_ns(uint64_t monotonic_ns);
 /// \return 0; -1 with the reason in error: no further line can be written.
 int output_state(output_t* self, const ins_nav_state_t* state, const ins_navigation_t* navigation,
                  const atomic_int* stop, char* error, size_t size);
+/// The same, for six accelerometers.
+int output_six(output_t* self, const ins_nav_six_state_t* state, const ins_navigation_t* navigation,
+               const atomic_int* stop, char* error, size_t size);
 /// The same, for what a navigating board says.
 int output_solution(output_t* self, const ins_nav_solution_t* solution, const ins_navigation_t* navigation,
                     const atomic_int* stop, char* error, size_t size);

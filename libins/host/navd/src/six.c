@@ -3,7 +3,10 @@
 /// SPDX-License-Identifier: MIT
 #include "ins_nav/six.h"
 #include "ins/earth.h"
+#include "ins/kalman.h"
 #include "ins/quat.h"
+#include "json_writer.h"
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -153,4 +156,32 @@ ins_status_t ins_nav_six_fix(ins_nav_six_t* self, const double lat_lon_height[3]
     const ins_status_t status = ins_gyro_free_position(&self->filter, &fix, sigma, at_imu);
     self->fixes += status == INS_OK ? 1u : 0u;
     return status;
+}
+
+void ins_nav_six_navigation(const ins_nav_six_t* self, const ins_nav_six_state_t* state, int64_t time_ns,
+                            ins_navigation_t* out)
+{
+    double full[INS_GYRO_FREE_N * INS_GYRO_FREE_N];
+    ins_navigation_from_state(&state->nav, time_ns, out);
+    out->valid |= INS_NAVIGATION_VELOCITY | INS_NAVIGATION_VELOCITY_UP | INS_NAVIGATION_POSITION |
+                  INS_NAVIGATION_HEIGHT | INS_NAVIGATION_COVARIANCE;
+    memcpy(out->v_n, state->v_n, sizeof out->v_n);
+    memcpy(out->llh, state->lat_lon_height, sizeof out->llh);
+    ins_ud_covariance(INS_GYRO_FREE_N, self->filter.UD, full);
+    for (int i = 0; i < INS_NAVIGATION_P; i++)
+    {
+        memcpy(out->P + INS_NAVIGATION_P * i, full + INS_GYRO_FREE_N * i, INS_NAVIGATION_P * sizeof *full);
+    }
+}
+
+size_t ins_nav_six_json(const ins_nav_six_state_t* state, char* buffer, size_t size)
+{
+    json_writer_t w = {buffer, size};
+    json_put(&w, "{");
+    json_state(&w, &state->nav);
+    json_reals(&w, "v_n", state->v_n, 3);
+    json_reals(&w, "lat_lon_height", state->lat_lon_height, 3);
+    json_reals(&w, "sigma", state->sigma, INS_GYRO_FREE_N);
+    json_put(&w, ",\"fixes\":%" PRIu64 ",\"refused\":%" PRIu64, state->fixes, state->refused);
+    return json_end(&w, buffer);
 }

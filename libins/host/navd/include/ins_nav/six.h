@@ -13,6 +13,7 @@
 #include "ins/gyro_free.h"
 #include "ins/rates.h"
 #include "ins_nav/nav.h"
+#include "ins_nav/navigation.h"
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -58,6 +59,12 @@ INS_API ins_status_t ins_nav_six_step(ins_nav_six_t* self, const ins_nav_sample_
 /// \param[in] sigma  [3] north, east, down [m]. \return as ins_gyro_free_position(); INS_E_STATE before the first sample.
 INS_API ins_status_t ins_nav_six_fix(ins_nav_six_t* self, const double lat_lon_height[3], double age_s,
                                      const double sigma[3]);
+/// A state of it as one instant of navigation, with the covariance of attitude, velocity and position as they are now.
+INS_API void ins_nav_six_navigation(const ins_nav_six_t* self, const ins_nav_six_state_t* state, int64_t time_ns,
+                                    ins_navigation_t* out);
+/// As ins_nav_state_json(); INS_NAV_SIX_JSON_MAX always is enough.
+INS_API size_t ins_nav_six_json(const ins_nav_six_state_t* state, char* buffer, size_t size);
+#define INS_NAV_SIX_JSON_MAX 3072
 
 #ifdef __cplusplus
 }
