@@ -30,6 +30,7 @@ TEST(cpp, sculling_skew_and_six_accelerometers_have_the_bits_of_c)
     ASSERT_EQ(s.init(INS_CONING_HIST2_OPT, LEVEL), ins::Status::Ok);
     ASSERT_EQ(skew.init(2, delay, INS_C(0.02)), ins::Status::Ok);
     ASSERT_EQ(six.init(accels, INS_C(0.02)), ins::Status::Ok);
+    EXPECT_EQ(ins::accel_linear(accels[0], INS_C(0.001), 3), ins_accel_linear(&accels[0], INS_C(0.001), 3));
     ins_sculling_t c_s = s.raw;
     ins_skew_t c_skew = skew.raw;
     ins_sixacc_t c_six = six.raw;

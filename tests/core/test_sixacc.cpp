@@ -251,6 +251,22 @@ TEST(sixacc, rate_integration_is_second_order)
     }
 }
 
+TEST(sixacc, a_quadratic_term_is_taken_out_of_a_reading)
+{
+    const ins_accel_t a = {ins_real(0.3), {ins_real(1.2), ins_real(-1.6), 0}, {0, 0, 0}}; // of length 2
+    for (const double k2 : {-2e-3, -1e-5, 0.0, 1e-5, 2e-3})
+    {
+        for (double x = -60.0; x <= 60.0; x += 7.5)
+        {
+            const auto reading = ins_real(0.3 + 2.0 * (x + k2 * x * x));
+            EXPECT_NEAR(double(ins_accel_linear(&a, ins_real(k2), reading)), 0.3 + 2.0 * x, INS_TOL(1e-13, 5e-5))
+                << "k2 " << k2 << ", x " << x;
+        }
+    }
+    const double turn = 0.3 + 2.0 * -500.0; // of x = -1 / (2 k2), whose reading is -250
+    EXPECT_NEAR(double(ins_accel_linear(&a, ins_real(1e-3), ins_real(0.3 - 2.0 * 250.0))), turn, INS_TOL(1e-3, 2));
+}
+
 TEST(sixacc, refuses)
 {
     auto accels = eight();

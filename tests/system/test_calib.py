@@ -107,7 +107,17 @@ def test_six_accelerometers_in_full(ins, tmp_path, rate_unit):
         assert axis[j] == pytest.approx(sf * u / np.linalg.norm(u), abs=1e-8)
         assert place[j] == pytest.approx(r, abs=1e-9)
     assert core.Sixacc(bias, axis, place, 0.01) is not None
-    assert "static const ins_accel_t six[6]" in (tmp_path / "six.h").read_text(encoding="utf-8")
+    text = (tmp_path / "six.h").read_text(encoding="utf-8")
+    assert "static const ins_accel_t six[6]" in text
+    k2 = calibration.quadratic(out)
+    assert k2 == pytest.approx([a["p_est_noisy"][4] for a in vector("calib_full.json")["acc"]], abs=1e-9)
+    assert np.abs(k2).max() > 1e-6
+    assert f"six_k2[6] = {{INS_C({float(k2[0])!r})" in text
+    x = np.linspace(-20.0, 20.0, 6)
+    scale = np.linalg.norm(axis, axis=1)
+    assert core.accel_linear(bias, axis, k2, bias + scale * (x + k2 * x**2)) == pytest.approx(
+        bias + scale * x, abs=1e-12
+    )
 
 
 def test_poses_that_are_not_enough(ins, tmp_path):

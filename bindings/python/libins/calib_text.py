@@ -50,6 +50,8 @@ def header(result: Result, path: Path) -> str:
             f"    {{INS_C({float(row['bias'])!r}), {numbers(row['axis'])}, {numbers(row['place_m'])}}}," for row in rows
         ]
         lines += ["};"]
+        if "k2_s2_m" in rows[0]:
+            lines += ["", "/* quadratic terms, for ins_accel_linear() */", real("k2", [row["k2_s2_m"] for row in rows])]
     else:
         lines += ['#include "ins/config.h"', "", "/* matrix (reading - bias), for gyros less g_sensitivity f too */"]
         for sensor, table in result.tables.items():

@@ -23,6 +23,14 @@ void ins_sixacc_paper(ins_real rho, ins_accel_t accels[6])
     }
 }
 
+ins_real ins_accel_linear(const ins_accel_t* accel, ins_real k2, ins_real reading)
+{
+    // y = x + k2 x^2, y = (reading - bias) / s; as 2 y / (1 + root) nothing cancels, and k2 = 0 is no case of its own.
+    const ins_real over = reading - accel->bias;
+    const ins_real radicand = 1 + 4 * k2 * over / ins_sqrt(ins_vec_dot(accel->axis, accel->axis));
+    return accel->bias + 2 * over / (1 + (radicand > 0 ? ins_sqrt(radicand) : 0));
+}
+
 /// x := N^-1 x with N = L L^T, L in the lower triangle.
 static void solve(ins_real L[6][6], ins_real x[6])
 {

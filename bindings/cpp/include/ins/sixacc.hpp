@@ -11,6 +11,11 @@
 
 namespace ins
 {
+[[nodiscard]] inline Real accel_linear(const ins_accel_t& accel, Real k2, Real reading)
+{
+    return ins_accel_linear(&accel, k2, reading);
+}
+
 /// N accelerometers: ins_sixacc_t.
 template <int N = 6> class SixAcc
 {

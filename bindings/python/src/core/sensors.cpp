@@ -45,6 +45,28 @@ std::tuple<Made<ins_real>, Made<ins_real>, Made<ins_real>> sixacc_paper(double r
     return {bias, axis, r};
 }
 
+Made<ins_real> accel_linear(const Given& bias, const Given& axis, const Given& k2, const Given& readings)
+{
+    Call call("accel_linear");
+    const auto biases = call.whole<ins_real>("bias", bias, {ANY});
+    const size_t n = biases.shape[0];
+    const auto axes = call.whole<ins_real>("axis", axis, {n, 3});
+    const auto terms = call.whole<ins_real>("k2", k2, {n});
+    const auto in = call.rows<ins_real>("readings", readings, {n});
+    const auto out = call.out<ins_real>({n});
+    call.run(
+        [&](size_t k)
+        {
+            for (size_t j = 0; j < n; j++)
+            {
+                const ins_real* u = axes.data + 3 * j;
+                const ins_accel_t accel = {biases.data[j], {u[0], u[1], u[2]}, {0, 0, 0}};
+                out[k][j] = ins_accel_linear(&accel, terms.data[j], in[k][j]);
+            }
+        });
+    return out;
+}
+
 void init(ins_sixacc_t* self, const Given& bias, const Given& axis, const Given& r, double period_s)
 {
     new (self) ins_sixacc_t();
@@ -58,6 +80,8 @@ void bind_sixacc(nb::module_& m)
     m.attr("SIXACC_MAX") = INS_SIXACC_MAX;
     m.def("sixacc_paper", sixacc_paper, "rho"_a,
           "(bias (6,), axis (6, 3), r (6, 3)) of the paper's six on an arm of rho [m].");
+    m.def("accel_linear", accel_linear, "bias"_a, "axis"_a, "k2"_a, "readings"_a,
+          "Readings (n,) or (N, n) without the quadratic terms k2 (n,) [s^2/m] of accelerometers as Sixacc has them.");
     nb::class_<ins_sixacc_t> sixacc(
         m, "Sixacc", "Angular acceleration, rate and specific force from accelerometers alone. Frame: b.");
     sixacc.def("__init__", init, "bias"_a, "axis"_a, "r"_a, "period_s"_a,

@@ -1793,6 +1793,12 @@ extern "C" {
     pub fn ins_sixacc_paper(rho: ins_real, accels: *mut ins_accel_t);
 }
 extern "C" {
+    #[doc = "A reading without its accelerometer's quadratic term, which `ins calib` finds: for bias + s (x + k2 x^2) it is bias + s x, with s"]
+    #[doc = "the length of the axis. Where k2 matters, each reading goes through it before the rest of this header; it is one square root."]
+    #[doc = "\\param[in] k2  [s^2/m]. \\return of a reading beyond the parabola's turn, that of the turn."]
+    pub fn ins_accel_linear(accel: *const ins_accel_t, k2: ins_real, reading: ins_real) -> ins_real;
+}
+extern "C" {
     #[doc = "Rate 0. \\return INS_OK; INS_E_RANGE unless 6 <= count <= INS_SIXACC_MAX, period_s > 0, all numbers finite and the six unknowns"]
     #[doc = "observable."]
     pub fn ins_sixacc_init(

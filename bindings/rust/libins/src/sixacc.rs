@@ -21,6 +21,12 @@ pub fn paper(rho: Real) -> [Accel; 6] {
     accels
 }
 
+/// A reading without its accelerometer's quadratic term `k2` \[s^2/m\], as a calibration finds it.
+pub fn linear(accel: &Accel, k2: Real, reading: Real) -> Real {
+    // SAFETY: one accelerometer, read only.
+    unsafe { sys::ins_accel_linear(accel, k2, reading) }
+}
+
 fn count(length: usize) -> Result<c_uint, Error> {
     c_uint::try_from(length).map_err(|_| Error::Range)
 }

@@ -46,6 +46,10 @@ typedef struct ins_sixacc_t
 
 /// The paper's six, arm rho [m]. \param[out] accels  [6].
 INS_API void ins_sixacc_paper(ins_real rho, ins_accel_t accels[6]);
+/// A reading without its accelerometer's quadratic term, which `ins calib` finds: for bias + s (x + k2 x^2) it is bias + s x, with s
+/// the length of the axis. Where k2 matters, each reading goes through it before the rest of this header; it is one square root.
+/// \param[in] k2  [s^2/m]. \return of a reading beyond the parabola's turn, that of the turn.
+INS_API ins_real ins_accel_linear(const ins_accel_t* accel, ins_real k2, ins_real reading);
 /// Rate 0. \return INS_OK; INS_E_RANGE unless 6 <= count <= INS_SIXACC_MAX, period_s > 0, all numbers finite and the six unknowns
 /// observable.
 INS_API ins_status_t ins_sixacc_init(ins_sixacc_t* self, unsigned count, const ins_accel_t* accels, ins_real period_s);
