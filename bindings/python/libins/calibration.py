@@ -66,7 +66,7 @@ def accelerometers(path: Path) -> tuple[Array, Array, Array]:
 
 
 def quadratic(path: Path) -> Array:
-    """The accelerometers' quadratic terms in such a file [s^2/m], as core.accel_linear takes them; 0 where it has none."""
+    """Their quadratic terms in such a file [s^2/m], as core.accel_linear takes them; 0 where it has none."""
     rows = tomllib.loads(path.read_text(encoding="utf-8"))["accelerometer"]
     return np.array([row.get("k2_s2_m", 0.0) for row in rows], float)
 

@@ -75,7 +75,7 @@ void sensor_default(options_t* o)
     ins_nav_config_default(&o->nav);
     o->nav.octet_timeout_ms = 0; // not given, as the next
     o->nav.block_len = 0;
-    o->nav.period_s = NAN;
+    o->nav.period_s = (double)NAN;
     ins_nav_six_config_t* const six = &o->six;
     six->lsb_m_s2 = 2.0 * 2.0 * G_M_S2 / 4096.0;
     six->filter.bias = 0.02;
@@ -84,7 +84,7 @@ void sensor_default(options_t* o)
     six->filter.rate = 1e-4;
     six->still_m_s = six->still_rad_s = 1e-3;
     six->still_s = 10.0;
-    six->lat_lon_height[0] = NAN;
+    six->lat_lon_height[0] = (double)NAN;
     for (int i = 0; i < 3; i++)
     {
         six->filter.attitude[i] = 0.01;
