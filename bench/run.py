@@ -219,7 +219,8 @@ def main() -> int:
         return 0 if kept else 1
     environment = {**os.environ, "INS_BENCH": "1"}
     long = subprocess.run(["ctest", "--preset", "release", "--output-on-failure"], cwd=ROOT, env=environment)
-    counted = [path for path in sorted((ROOT / "tests/system").glob("test_*.py")) if "INS_BENCH" in path.read_text()]
+    tests = [path for room in ("system", "view") for path in sorted((ROOT / "tests" / room).glob("test_*.py"))]
+    counted = [path for path in tests if "INS_BENCH" in path.read_text()]
     system = subprocess.run([sys.executable, "-m", "pytest", "-q", *counted], cwd=ROOT, env=environment)
     mutation = subprocess.run([sys.executable, ROOT / "bench/mutation.py"])
     planted = subprocess.run([sys.executable, ROOT / "bench/f2812/mutants.py"])

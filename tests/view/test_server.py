@@ -270,3 +270,28 @@ def test_what_was_done_is_saved_as_a_scenario_that_ins_run_repeats_bit_for_bit(t
             assert len(tomllib.loads(saved["toml"])["knob"]) == 2
 
     played(scene)
+
+
+def test_an_f2812_greets_answers_breaks_and_begins_again() -> None:
+    async def scene(server: Server) -> None:
+        async with server.page() as page:
+            assert (page.hello["kind"], page.hello["lines"]) == ("net", ["dsp.SCIA", "dsp.SCIB"])
+            await page.run_to(0.1)
+            greeting = bytes.fromhex(page.frame["uart"]["dsp.SCIA"]["tx"])
+            assert greeting and page.frame["link"]["scia.octets_received"] == len(greeting)
+            await page.done("uart_send", line="dsp.SCIA", text="A")
+            await page.run_to(0.2)
+            uart = page.frame["uart"]["dsp.SCIA"]
+            assert (uart["rx"], uart["tx"], uart["tx_from"]) == ("41", "41", len(greeting))
+            assert (await page.done("fault_add", kind="wire_cut", net="SCIRXDA", station="dsp"))["index"] == 0
+            await page.done("uart_send", line="dsp.SCIA", text="B")
+            await page.run_to(0.3)
+            assert page.frame["uart"]["dsp.SCIA"]["tx"] == "" and page.frame["faults"][0]["hits"] == 1
+            assert "forwards only" in (await page.ask("to", t_ps=0))["error"]
+            assert "is no line to a host" in (await page.ask("uart_send", line="x", text="A"))["error"]
+            await page.done("reset")
+            assert (page.frame["t_ps"], page.frame["rewound"], page.edges) == (0, 0, [])
+            await page.run_to(0.1)
+            assert bytes.fromhex(page.frame["uart"]["dsp.SCIA"]["tx"]) == greeting
+
+    played(scene, "echo")

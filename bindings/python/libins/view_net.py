@@ -278,8 +278,8 @@ class NetEngine:
         ends = next((each.ends for each in self._scenario.tables.line if line in each.ends), [line])
         host = next((end for end in ends if end in hosts), None)
         if host is None or hosts[host].mode != "octets":
-            free = [h.name for h in hosts.values() if h.mode == "octets"]
-            raise UsageError(f"uart_send: line: found {line!r}, but a line with a host of octets is needed: {free}")
+            free = ", ".join(h.name for h in hosts.values() if h.mode == "octets") or "none"
+            raise UsageError(f"uart_send: {line!r} is no line to a host of octets; such hosts here: {free}")
         self._machine.send(host, asked.octets())
         return {}
 
