@@ -67,6 +67,10 @@ export class Analyser {
     );
   }
 
+  suits(hello) {
+    return hello.wires.length > 0;
+  }
+
   hello(hello) {
     const keep = new Set(this.wires);
     this.wires = hello.wires.filter((wire) => (keep.size ? keep.has(wire) : !/^P\d\.\d$/.test(wire)));

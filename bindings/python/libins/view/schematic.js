@@ -8,6 +8,8 @@ const GAP = 18;
 const TRACK = 9;
 const CHANNEL = 26;
 const MARGIN = 10;
+/** Left free for the buttons. */
+const FOOT = 26;
 const SQUARE = 7;
 const POWER = { VCC: "VCC", "5V": "5V", VREF: "VREF", GND: "GND" };
 const MAIN = 2;
@@ -34,6 +36,10 @@ export class Schematic {
     }, { passive: false });
     this.drawing.addEventListener("pointerdown", (event) => this.#drag(event));
     this.drawing.addEventListener("keydown", (event) => this.#key(event));
+  }
+
+  suits(hello) {
+    return hello.parts.length > 0;
   }
 
   hello(hello) {
@@ -239,7 +245,7 @@ export class Schematic {
   }
 
   #all() {
-    this.box = [-MARGIN, -MARGIN, this.width + 2 * MARGIN, this.height + 2 * MARGIN];
+    this.box = [-MARGIN, -MARGIN, this.width + 2 * MARGIN, this.height + 2 * MARGIN + FOOT];
     this.#show();
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Run control, speed, the way back, files to keep, the menu of panels, keys.
 import { button, choice, download, el, labelled, mark, put } from "./dom.js";
-import { seconds } from "./status.js";
+import { PS_PER_S, seconds } from "./status.js";
 
 const SPEEDS = [["0.001", "0.001×"], ["0.01", "0.01×"], ["0.1", "0.1×"], ["0.5", "0.5×"], ["1", "1×"], ["2", "2×"], ["5", "5×"], ["20", "20×"], ["max", "max"]];
 
@@ -58,8 +58,9 @@ export class Toolbar {
     this.toSave.hidden = recording || !(hello.can_save ?? hello.knobs?.length);
     this.toKeep.hidden = recording || !hello.can_step;
     if (recording) {
-      this.slider.max = hello.end_ps;
-      this.slider.step = Math.max(1, Math.round(hello.end_ps / 10_000));
+      const end = Math.round(hello.stop_s * PS_PER_S);
+      this.slider.max = end;
+      this.slider.step = Math.max(1, Math.round(end / 10_000));
     }
   }
 
