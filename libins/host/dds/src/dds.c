@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define KIND(kind, usual, type) {usual, &libins_##type##_desc, sizeof(libins_##type)},
+#define KIND(kind, usual, type) [kind] = {usual, &libins_##type##_desc, sizeof(libins_##type)},
 static const struct
 {
     const char* usual; ///< name of the topic

@@ -30,12 +30,17 @@ enum
     X(INS_DDS_RAW_IMU, "libins/raw_imu", RawImu)                                                                       \
     X(INS_DDS_STATE_DECIMATED, "libins/nav_state_decimated", NavState)
 
-#define INS_DDS_ENUM(name, topic, type) name,
+/// In the order of the list.
 typedef enum ins_dds_kind_t
 {
-    INS_DDS_KIND_LIST(INS_DDS_ENUM) INS_DDS_KINDS
+    INS_DDS_STATE,
+    INS_DDS_SOLUTION,
+    INS_DDS_STATUS,
+    INS_DDS_INNOVATIONS,
+    INS_DDS_RAW_IMU,
+    INS_DDS_STATE_DECIMATED,
+    INS_DDS_KINDS
 } ins_dds_kind_t;
-#undef INS_DDS_ENUM
 
 /// Where the domain's configuration comes from.
 enum
