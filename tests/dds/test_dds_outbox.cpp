@@ -200,20 +200,24 @@ TEST(Outbox, TheDaemonTellsItsStatusAndWhatTheGyrosSaid)
     cfg.subscribes = 1;
     ins_dds_config_carry(&cfg, INS_DDS_STATUS);
     ins_dds_config_carry(&cfg, INS_DDS_RAW_IMU);
+    ins_dds_config_carry(&cfg, INS_DDS_STATE_DECIMATED);
     (void)ins_dds_qos_profile("reliable", &cfg.topic[INS_DDS_RAW_IMU].qos);
+    (void)ins_dds_qos_profile("latched", &cfg.topic[INS_DDS_STATE_DECIMATED].qos); // heard only if the writer is so too
     ins_dds_t* opened = nullptr;
     ASSERT_EQ(ins_dds_open(&cfg, &opened), INS_DDS_OK) << ins_dds_error_text();
     const Handle dds(opened);
     Pty pty;
     Process navd({INS_NAVD, "--device", pty.path, "--dds=" + std::to_string(domain()), "--null-code", "0",
-                  "--lsb-deg-s", "0.01", "--source", "imu7"});
-    for (const double end = seconds_now() + limit_s; ins_dds_matched(dds.get()) < 3 && seconds_now() < end;)
+                  "--lsb-deg-s", "0.01", "--source", "imu7", "--decimate", "10", "--qos",
+                  "nav_state_decimated=latched"});
+    for (const double end = seconds_now() + limit_s; ins_dds_matched(dds.get()) < 4 && seconds_now() < end;)
     {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     Board board(pty.fd, 0, 1000000);
     std::map<uint64_t, std::array<double, 3>> raw;
     std::map<uint64_t, ins_nav_state_t> states;
+    size_t decimated = 0;
     const auto got =
         take_until(dds,
                    [&](const auto& s)
@@ -227,8 +231,11 @@ TEST(Outbox, TheDaemonTellsItsStatusAndWhatTheGyrosSaid)
                        {
                            states[s.state.index] = s.state;
                        }
+                       decimated += s.kind == INS_DDS_STATE_DECIMATED ? 1 : 0;
                        return s.kind == INS_DDS_STATUS && s.status.published > 100;
                    });
+    EXPECT_GE(decimated, 5U);
+    EXPECT_LE(decimated, got.back().status.published / 10 + 2);
     const ins_dds_status_t& status = got.back().status;
     ASSERT_FALSE(got.empty()) << navd.err;
     EXPECT_STREQ(got.back().source, "imu7");

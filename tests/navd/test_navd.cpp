@@ -239,6 +239,8 @@ TEST(Navd, RefusesWhatItCannotUse)
         {{"--device", pty.path, "--form", "best"}, "--form: 'best' is none of"},
         {{"--device", pty.path, "--json", "/nowhere/x"}, "cannot write /nowhere/x"},
         {{"--device", pty.path, "--topic", "x"}, "want --dds"},
+        {{"--device", pty.path, "--decimate", "10"}, "want --dds"},
+        {{"--device", pty.path, "--dds", "--qos", "nav_state=fast"}, "sensor_data"},
         {{"--device", pty.path, "--dds=231"}, "is not a whole number from 0 to 230"},
         {{"--device", pty.path, "more"}, "an argument too many"},
         {{"--frobnicate"}, "unrecognized option"},

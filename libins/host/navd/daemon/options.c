@@ -49,8 +49,8 @@ static const char* const help_input =
 static const char* const help_output =
     "output\n"
     "  -j, --json FILE|-         one JSON line per sample; standard output, unless --dds or --ros is given\n"
-    "      --dds[=DOMAIN]        publish libins::NavState, with --input nav libins::NavSolution; domain 0, loopback "
-    "only\n"
+    "      --dds[=DOMAIN]        publish libins::NavState and Status, of gyros RawImu, with --input nav NavSolution;\n"
+    "                            domain 0, loopback only\n"
     "      --dds-config FILE     Cyclone DDS configuration (XML) in place of loopback\n"
     "      --dds-env             configuration from CYCLONEDDS_URI in place of loopback\n"
     "      --dds-interface IF    network interface in place of loopback, by multicast\n"
@@ -60,6 +60,9 @@ static const char* const help_output =
     "      --strength N          of several daemons of one source only the strongest alive is heard; 0: all are\n"
     "      --security FOLDER     DDS Security with the files that `ins keys` made there, or six paths\n"
     "      --lease-s S           it counts as gone after S seconds without a sign of life; 1\n"
+    "      --qos TOPIC=PROFILE   nav_state, nav_solution, status or raw_imu: default, sensor_data, latched or "
+    "reliable\n"
+    "      --decimate N          one state in N on libins/nav_state_decimated too\n"
     "      --source ID           key of the published states; ins-navd\n"
     "      --ros[=NAMESPACE]     publish ROS 2 topics (imu/data, /tf, /diagnostics; with --input nav gnss/fix, "
     "odometry, twist\n"
@@ -109,6 +112,8 @@ static const struct option known[] = {
     {"dds-peer", required_argument, NULL, O_DDS_PEER},
     {"strength", required_argument, NULL, O_STRENGTH},
     {"security", required_argument, NULL, O_SECURITY},
+    {"qos", required_argument, NULL, O_QOS},
+    {"decimate", required_argument, NULL, O_DECIMATE},
     {"lease-s", required_argument, NULL, O_LEASE},
     {"ros", optional_argument, NULL, O_ROS},
     {"topic", required_argument, NULL, O_TOPIC},
@@ -146,6 +151,17 @@ static int input(const char* text, input_t* out)
     }
     fprintf(stderr, "ins-navd: --input: '%s' is none of codes, nav, six\n", text);
     return 0;
+}
+
+static int options_qos(options_t* o, const char* text)
+{
+    if (o->qos_count == QOS_MAX)
+    {
+        fprintf(stderr, "ins-navd: --qos: '%s' is one too many: %u are enough for every topic\n", text, QOS_MAX);
+        return 0;
+    }
+    o->qos[o->qos_count++] = text;
+    return 1;
 }
 
 /// One option. \return 1; 0 after a message.
@@ -208,6 +224,13 @@ static int take(options_t* o, int code, const char* text)
     case O_SECURITY:
         o->security = text;
         break;
+    case O_QOS:
+        good = options_qos(o, text);
+        break;
+    case O_DECIMATE:
+        good = argument_whole(name, text, 1, 1000000, &n);
+        o->decimate = (uint32_t)n;
+        break;
     case O_ROS:
         o->ros = text != NULL ? text : "/";
         break;
@@ -250,9 +273,10 @@ static const char* problem(const options_t* o)
     {
         return "--baud: not a rate of this system; use 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200 or 230400";
     }
-    if (!o->dds && (o->topic != NULL || o->partition != NULL || o->strength != 0 || o->lease_s > 0.0))
+    if (!o->dds && (o->topic != NULL || o->partition != NULL || o->strength != 0 || o->lease_s > 0.0 ||
+                    o->qos_count > 0 || o->decimate > 0))
     {
-        return "--topic, --partition, --strength and --lease-s want --dds";
+        return "--topic, --partition, --strength, --lease-s, --qos and --decimate want --dds";
     }
     if (!o->dds && o->ros == NULL &&
         (o->dds_config != NULL || o->dds_environment || o->dds_interface != NULL || o->security != NULL))

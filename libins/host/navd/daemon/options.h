@@ -16,6 +16,8 @@ typedef enum input_t
     INPUT_COUNT
 } input_t;
 
+#define QOS_MAX 8u
+
 typedef struct options_t
 {
     input_t input;
@@ -41,6 +43,9 @@ typedef struct options_t
     int32_t strength;     ///< of exclusive ownership, 0 = shared
     double lease_s;       ///< of liveliness, 0 = the default
     const char* security; ///< folder, NULL = none
+    const char* qos[QOS_MAX]; ///< TOPIC=PROFILE each
+    unsigned qos_count;
+    uint32_t decimate; ///< one state in so many on a topic of its own too, 0 = none
     const char* source;
     const char* ros;  ///< ROS 2 namespace to publish in, NULL = none
     uint64_t limit;   ///< states, 0 = none

@@ -36,6 +36,8 @@ enum
     O_STRENGTH,
     O_LEASE,
     O_SECURITY,
+    O_QOS,
+    O_DECIMATE,
     O_ROS,
     O_TOPIC,
     O_PARTITION,

@@ -99,6 +99,11 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
     }
     cfg.topic[kind].name = options->topic != NULL ? options->topic : cfg.topic[kind].name;
     cfg.partition = options->partition;
+    if (options->decimate > 0)
+    {
+        ins_dds_config_carry(&cfg, INS_DDS_STATE_DECIMATED);
+        cfg.topic[INS_DDS_STATE_DECIMATED].decimate = options->decimate;
+    }
     cfg.strength = options->strength;
     cfg.lease_s = options->lease_s > 0.0 ? options->lease_s : cfg.lease_s;
     cfg.network = options->dds_environment         ? INS_DDS_ENVIRONMENT
@@ -125,6 +130,10 @@ publisher_t* publisher_open(const options_t* options, char* error, size_t size)
     {
         status = ins_dds_security_folder(options->security, &security, paths);
         cfg.security = &security;
+    }
+    for (unsigned i = 0; i < options->qos_count && status == INS_DDS_OK; i++)
+    {
+        status = ins_dds_config_qos(&cfg, options->qos[i]);
     }
     publisher_t* self = calloc(1, sizeof *self);
     if (self == NULL || status != INS_DDS_OK || !open_both(self, options, &cfg) ||
