@@ -45,7 +45,7 @@ typedef struct ins_kf15_scale_t
 /// Not correlated with anything yet. \return INS_E_RANGE, self unchanged: a figure is out of its range, or not a number.
 INS_API ins_status_t ins_kf15_scale_init(ins_kf15_scale_t* self, const ins_kf15_scale_sensors_t* sensors);
 /// One step of all 21. \param[in,out] kf  as by ins_kf15_propagate().
-/// \param[in] theta_b, v_b  [3] of the step, as ins_kf15_model() was told [rad], [m/s].
+/// \param[in] theta_b  [3] of the step, as ins_kf15_model() was told [rad]. \param[in] v_b  [3], likewise [m/s].
 INS_API void ins_kf15_scale_propagate(ins_kf15_scale_t* self, ins_kf15_t* kf, const ins_kf15_model_t* model,
                                       const ins_real theta_b[3], const ins_real v_b[3]);
 /// One scalar z = h x + h_s s + noise. \param[in] h  [15]; one of it at least is not 0. \param[in] h_s  [6] gyros, accelerometers.
