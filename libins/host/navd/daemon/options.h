@@ -40,9 +40,9 @@ typedef struct options_t
     const char* dds_peers;     ///< on dds_interface, commas between; NULL = multicast
     const char* topic;         ///< NULL = the default
     const char* partition;
-    int32_t strength;     ///< of exclusive ownership, 0 = shared
-    double lease_s;       ///< of liveliness, 0 = the default
-    const char* security; ///< folder, NULL = none
+    int32_t strength;         ///< of exclusive ownership, 0 = shared
+    double lease_s;           ///< of liveliness, 0 = the default
+    const char* security;     ///< folder, NULL = none
     const char* qos[QOS_MAX]; ///< TOPIC=PROFILE each
     unsigned qos_count;
     uint32_t decimate; ///< one state in so many on a topic of its own too, 0 = none
