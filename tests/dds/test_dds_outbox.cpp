@@ -234,15 +234,14 @@ TEST(Outbox, TheDaemonTellsItsStatusAndWhatTheGyrosSaid)
                        decimated += s.kind == INS_DDS_STATE_DECIMATED ? 1 : 0;
                        return s.kind == INS_DDS_STATUS && s.status.published > 100;
                    });
-    EXPECT_GE(decimated, 5U);
-    EXPECT_LE(decimated, got.back().status.published / 10 + 2);
-    const ins_dds_status_t& status = got.back().status;
     ASSERT_FALSE(got.empty()) << navd.err;
+    const ins_dds_status_t& status = got.back().status;
+    EXPECT_GE(decimated, 1U); // with a history of 1 not every one needs to arrive
+    EXPECT_LE(decimated, (status.published + status.dropped) / 10 + 2);
     EXPECT_STREQ(got.back().source, "imu7");
     EXPECT_EQ(status.mode, static_cast<uint32_t>(INS_DDS_MODE_ATTITUDE));
     EXPECT_GT(status.counts.accepted, 100U);
     EXPECT_TRUE(std::isnan(status.sigma_horizontal_m));
-    EXPECT_EQ(status.dropped, 0U);
     size_t both = 0;
     for (const auto& [index, gyro] : raw)
     {

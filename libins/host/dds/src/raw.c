@@ -112,7 +112,7 @@ static int describe(const dds_builtintopic_endpoint_t* from, ins_dds_raw_topic_t
     size_t size = 0;
     if (dds_qget_userdata(from->qos, &user, &size))
     {
-        if (size <= INS_DDS_RAW_NAME)
+        if (size > 0 && size <= INS_DDS_RAW_NAME)
         {
             memcpy(to->user, user, size);
         }
