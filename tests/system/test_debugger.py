@@ -126,6 +126,15 @@ def test_an_expression_is_watched_through_all_that_it_reads(d):
     assert d.print_value("ticks") == "1" and int(d.print_value("total")) > 10
 
 
+def test_a_place_that_is_read_often_is_noted_once(d):
+    r0 = d.expression("$r0")
+    r0.number(d.memory)
+    noted = len(d.memory.touched)
+    for _ in range(100):
+        r0.number(d.memory)
+    assert len(d.memory.touched) == noted > 0, "a page of ins view reads the registers 30 times a second for hours"
+
+
 @pytest.mark.parametrize("mark", ["loop 2"])
 def test_reads_and_writes_of_external_ram_and_of_registers(d, mark):
     to(d, "first")

@@ -49,7 +49,7 @@ class Breakpoint:
         if self.kind == "change":
             memory.touched.clear()
             self.was = self.look(memory)
-            self.spans = tuple(dict.fromkeys(memory.touched))
+            self.spans = tuple(memory.touched)
         if self.kind == "edge":
             watcher.edge(self.number, self.wire, self.rising, self.falling)
         for space, address, length in self.spans:

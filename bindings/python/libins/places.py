@@ -60,11 +60,12 @@ class Memory:
         """`run` is a libins._run.Run; `write` carries out a poke."""
         self.run = run
         self.write = write
-        self.touched: list[tuple[str, int, int]] = []
+        self.touched: dict[tuple[str, int, int], None] = {}
+        """Places that were read, each once, in the order of the first time."""
 
     def read(self, space: str, address: int, count: int) -> bytes:
         """Octets of a memory."""
-        self.touched.append((space, address, count))
+        self.touched[space, address, count] = None
         return bytes(self.run.read(space, address, count))
 
     def octets(self, value: Value) -> bytes:
