@@ -12,7 +12,13 @@ from libins import core, coref
 
 HEADERS = ROOT / "libins/core/include/ins"
 BINDINGS = ROOT / "bindings/python/src/core"
-NOT_BOUND: dict[str, str] = {}
+_SCALE = "ins replay runs it natively (noise.scale_g, noise.scale_a)"
+NOT_BOUND = {
+    "ins_gps_ins_scale_init": _SCALE,
+    "ins_kf15_scale_init": _SCALE,
+    "ins_kf15_scale_propagate": _SCALE,
+    "ins_kf15_scale_update": _SCALE,
+}
 """C function -> why Python does not need it."""
 
 
